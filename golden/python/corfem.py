@@ -34,9 +34,10 @@ def correct(stiffness, mass, parts, frequencies_hz, shapes, sensors, entries="",
         for name, text in {**files, "job.toml": job + entries}.items():
             pathlib.Path(folder, name).write_text(text)
         run = subprocess.run([program, "correlate", "-q", "job.toml", "--folder", "out"], cwd=folder, capture_output=True, text=True)
-        if run.returncode not in (0, 3):
-            raise ValueError(run.stderr)
-        result = json.loads(pathlib.Path(folder, "out/correlation.json").read_text())
+        found = pathlib.Path(folder, "out/correlation.json")
+        if not found.exists():
+            raise ValueError(run.stderr + run.stdout)
+        result = json.loads(found.read_text())
     for name in ("factors", "standard_deviations", "test_frequencies_hz"):
         result[name] = np.array(result[name], float)
     return result | {"status": run.returncode}

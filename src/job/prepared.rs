@@ -332,7 +332,7 @@ impl PreparedJob {
     }
 
     /// True if no test mode with a shape has a partner.
-    pub(super) fn is_without_pairs(&self) -> bool {
+    pub fn is_without_pairs(&self) -> bool {
         let is_unpaired = |mode: &usize| self.unpaired.iter().any(|left| left.mode == *mode);
         !self.modes.is_empty() && self.modes.iter().all(is_unpaired)
     }

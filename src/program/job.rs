@@ -50,9 +50,6 @@ pub struct InitArguments {
 
 #[derive(Debug, Args)]
 pub struct CorrelateArguments {
-    /// The job: corfem init explains its entries
-    #[arg(value_name = "JOB")]
-    job: PathBuf,
     /// Also write report.html, factors.csv, shapes.csv, shapes.unv, residuals.csv, correlation.json and the corrected deck into this folder, created if new
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
@@ -62,11 +59,8 @@ pub struct CorrelateArguments {
     /// Seed of the starting points
     #[arg(long, value_name = "S", requires = "starts")]
     seed: Option<u64>,
-    /// Answer for the doubt of this identifier, which then no longer makes the status 3; may be repeated
-    #[arg(long, value_name = "IDENTIFIER")]
-    accept: Vec<String>,
     #[command(flatten)]
-    output: OutputArguments,
+    check: CheckArguments,
 }
 
 #[derive(Debug, Args)]
@@ -161,19 +155,20 @@ pub fn check_job(
         }
         Ok::<_, PresentError>((trust, tables))
     })?;
-    let document = || {
+    output.write(&tables, || {
         json::own_document(
             json!({ "trust": trust, "checks": trust.answers(false), "tables": tables }),
         )
-    };
-    output.write(&tables, document)?;
+    })?;
     Ok(!trust.has_doubt())
 }
 
-/// Corrects the model of a job and writes the report; true if it is within tolerance.
+/// Corrects the model of a job and writes the report; true if it is within tolerance. Where a doubt leaves nothing to compare, it is a check.
 pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, PresentError> {
-    let stop = stopped_by_signals();
-    let (prepared, result) = corrected(arguments, quiet, stop)?;
+    let Some((prepared, result)) = corrected(arguments, quiet)? else {
+        note("corfem: no mode of the model is like a test mode, so nothing is corrected");
+        return check_job(&arguments.check, quiet);
+    };
     let report = Report::from_job(&prepared, Some(&result))?;
     let (paired, factors) = (paired_table(&report)?, factor_table(&report));
     let [doubts, remarks] = doubts_and_remarks(&result.trust);
@@ -182,14 +177,16 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         minima.chain([history_table(&report)])
     };
     // A terminal has doubts first, then the answer, and no room for every column.
-    let brief = [
+    let brief: Vec<Table> = [
         doubts,
         answer_table(&report),
         factors.clone().only(&BRIEF_FACTORS),
         paired.clone().only(&BRIEF_MODES),
         remarks,
-    ];
-    let brief: Vec<Table> = brief.into_iter().chain(last()).collect();
+    ]
+    .into_iter()
+    .chain(last())
+    .collect();
     let all = [trust_table(&result.trust), factors, paired].into_iter();
     let all: Vec<Table> = all.chain(last()).collect();
     let digest = prepared.loaded.digest()?;
@@ -198,21 +195,22 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         document["inputs"] = json!(digest);
         json::own_document(document)
     };
-    arguments.output.write_in_brief(&brief, &all, document)?;
+    arguments
+        .check
+        .output
+        .write_in_brief(&brief, &all, document)?;
     if let Some(folder) = &arguments.folder {
-        let places = [
-            model_table(&prepared)?,
-            places_table(&prepared.loaded, Some(&result))?,
-            inputs_table(&prepared, &digest),
-        ];
-        let page = report_page(
-            &report,
-            &places,
-            &command(arguments),
-            &prepared.loaded.job.text,
-        )?;
         let texts = [
-            page,
+            report_page(
+                &report,
+                &[
+                    model_table(&prepared)?,
+                    places_table(&prepared.loaded, Some(&result))?,
+                    inputs_table(&prepared, &digest),
+                ],
+                &command(arguments),
+                &prepared.loaded.job.text,
+            )?,
             rows::factor_rows(&report),
             rows::shape_rows(&report)?,
             universal(&report, &prepared.loaded)?,
@@ -227,13 +225,13 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
     Ok(result.verdict.is_within && !result.trust.stands_against() && !result.found.is_interrupted)
 }
 
-/// Reads, prepares and runs a job.
+/// Reads, prepares and runs a job; none where no test mode has a partner and a doubt says why.
 fn corrected(
     arguments: &CorrelateArguments,
     quiet: bool,
-    stop: Arc<AtomicBool>,
-) -> Result<(PreparedJob, JobResult), PresentError> {
-    let mut loaded = LoadedJob::new(job_file(&arguments.job)?)?;
+) -> Result<Option<(PreparedJob, JobResult)>, PresentError> {
+    let stop = stopped_by_signals();
+    let mut loaded = LoadedJob::new(job_file(&arguments.check.job)?)?;
     let go_on = || !stop.load(Ordering::SeqCst);
     if let Some(starts) = arguments.starts {
         let compare = &mut loaded.job.compare;
@@ -247,9 +245,12 @@ fn corrected(
     let progress = |words: &str| bar.set_message(words.to_owned());
     let finish = || {
         let prepared = loaded.prepare()?;
-        let trust = Trust::before(&prepared)?.accepting(&arguments.accept)?;
+        let trust = Trust::before(&prepared)?.accepting(&arguments.check.accept)?;
+        if prepared.is_without_pairs() && trust.has_doubt() {
+            return Ok(None);
+        }
         let result = run(&prepared, &trust, progress, go_on)?;
-        Ok((prepared, result))
+        Ok(Some((prepared, result)))
     };
     let finished = finish();
     bar.finish_and_clear();
@@ -272,13 +273,14 @@ fn command(arguments: &CorrelateArguments) -> String {
     let starts = arguments.starts.map(|starts| format!(" --starts {starts}"));
     let seed = arguments.seed.map(|seed| format!(" --seed {seed}"));
     let accepted = arguments
+        .check
         .accept
         .iter()
         .map(|doubt| format!(" --accept {doubt}"));
     let options: String = starts.into_iter().chain(seed).chain(accepted).collect();
     format!(
         "corfem correlate {}{options} --folder FOLDER",
-        arguments.job.display()
+        arguments.check.job.display()
     )
 }
 

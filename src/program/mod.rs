@@ -62,7 +62,7 @@ const JOB_HELP: &str = "\
 Ctrl-C lets the analysis under way end and keeps the best so far; a second one ends the program at once and leaves no half-written file.
 
 Exit status: 0 within tolerance and no doubt stands; 2 bad input, or a file that cannot be read or written; 3 not within tolerance, stopped, or a doubt \
-stands, which --accept answers for; the best found is printed all the same.";
+stands, which --accept answers for; the best found is printed all the same, or what check prints if no mode of the model is like a test mode.";
 
 const CHECK_HELP: &str = "\
 Exit status: 0 no doubt stands; 2 bad input, or a file that cannot be read; 3 a doubt stands, which --accept answers for.";

@@ -29,9 +29,14 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::NAN)
 }
 
+/// A list, which a check does not have.
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
 /// The numbers of a list, NaN for what is none.
 fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap().iter().map(number).collect()
+    list(value).iter().map(number).collect()
 }
 
 /// The program's answer to the files of a job.
@@ -56,11 +61,11 @@ pub fn answer(job: &Path) -> Answer {
             ..Answer::default()
         };
     };
-    let deviations = found["standard_deviations"].as_array().unwrap();
+    let deviations = list(&found["standard_deviations"]);
     let end = |interval: &Value, end| interval[end].as_f64();
-    let intervals = found["intervals"].as_array().unwrap().iter();
+    let intervals = list(&found["intervals"]).iter();
     let is_against = |own: &&Value| own["grade"] == "doubt" || own["grade"] == "left_out";
-    let against = found["trust"].as_array().unwrap().iter().filter(is_against);
+    let against = list(&found["trust"]).iter().filter(is_against);
     let best = match found["best_pass"].as_u64() {
         Some(pass) => &found["passes"][pass as usize - 1]["exact"],
         None => &found["initial"],

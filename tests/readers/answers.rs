@@ -1,6 +1,7 @@
 //! The law over all answers: right tests of ten structures raise no doubt, and one mistake in a test is named, and no other sensor.
 
 use super::digits::{job, modes, parts, whole};
+use super::job_pairs::normal;
 use crate::common::draws::Draws;
 use crate::common::free_structures::written;
 use crate::common::jobs::{sensor, test_data};
@@ -100,10 +101,6 @@ fn built(draws: &mut Draws, kind: usize) -> (Vec<[DMatrix<f64>; 2]>, Vec<usize>)
         _ => (),
     }
     (all, sensors)
-}
-
-fn normal(draws: &mut Draws) -> f64 {
-    (0..12).map(|_| draws.unit()).sum::<f64>() - 6.0
 }
 
 /// What is said of a test with a mistake, by matrices in so large a unit, and the sensors that are wrong.

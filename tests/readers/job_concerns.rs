@@ -47,13 +47,11 @@ fn a_mistake_in_a_sensor_is_named_by_the_sensors_name() {
 fn gross_mistakes_are_named_before_anything_fails() {
     let thousandfold = tested(|data| data.shapes.row_mut(4).scale_mut(1000.0));
     assert_eq!(doubts(&thousandfold), ["gain-5"]);
-    // Correlated, a test in which no mode has a partner is refused.
-    let (_folder, path) = placed(&tested(|data| {
-        data.shapes
-            .row_iter_mut()
-            .enumerate()
-            .for_each(|(row, mut readings)| readings *= if row == 4 { 1e5 } else { 1.0 });
-    }));
+    // Of a test in which no mode has a partner nothing is corrected, and the program says what looks wrong.
+    let drowned = tested(|data| data.shapes.row_mut(4).scale_mut(1e5));
+    let told = answered(&drowned);
+    assert_eq!((told.status, told.doubts), (3, vec!["gain-5".to_owned()]));
+    let (_folder, path) = placed(&drowned);
     let loaded = prepare(&path).unwrap();
     let error = run(&loaded, |_| {}, || true)
         .expect_err("refused")
