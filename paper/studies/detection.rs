@@ -1,21 +1,13 @@
-//! How often a parameter a hundred times too thin is named off the reconstructed box: on other boxes by what the first iteration asks
-//! for, on other structures by the fit of a single parameter that `corfem check` prints.
+//! How often a parameter a hundred times too thin is named on other boxes than the reconstructed one by what the first iteration asks for.
 
 use super::localization::NOISE;
 use super::readings::{FAULTY_ELEMENT, READINGS};
-use super::readings_rates::{KINDS, Kind, below, unit};
 use crate::prelude::*;
 
 /// By how much the coordinates and the masses of other boxes are off, parts of them.
 pub const SIZES: [(f64, f64); 3] = [(0.02, 0.05), (0.05, 0.10), (0.12, 0.30)];
 /// Boxes of a size.
 pub const BOXES: usize = 300;
-/// Tests of a structure.
-pub const TESTS: u64 = 30;
-/// Structures of a job: a truss has more rods than five modes tell apart.
-pub const STRUCTURES: usize = 4;
-/// Test modes of a job.
-const MODES: usize = 5;
 
 /// Other boxes of one size.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,61 +105,6 @@ pub fn right_model_alarms(number: usize, seeds: u64) -> Result<[usize; 4], CaseE
     Ok(alarms)
 }
 
-/// Jobs of one structure, in each of which the real one has one parameter a hundred times too thin.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JobRates {
-    /// The structure.
-    pub name: &'static str,
-    /// In how many the culprit is the first suspect, and in how many one of the first three.
-    pub fit: [usize; 2],
-    /// In how many it has the largest change by the paper's factor with the reading matrix.
-    pub factor: usize,
-}
-
-/// The suspects of so many jobs of a structure.
-///
-/// # Panics
-/// If a job cannot be looked at.
-pub fn job_rates(kind: Kind, tests: u64) -> JobRates {
-    let (mut state, mut rates) = (
-        11,
-        JobRates {
-            name: kind.name,
-            fit: [0; 2],
-            factor: 0,
-        },
-    );
-    for seed in 0..tests {
-        let (parts, mass, _) = (kind.build)(&mut state);
-        let culprit = below(&mut state, parts.len());
-        let mut real: DMatrix<f64> = parts.iter().sum();
-        real -= 0.99 * &parts[culprit];
-        let exact = solve(&real, &mass, MODES).unwrap();
-        let shapes = unit(exact.shapes().clone());
-        let exact = Modes::new(exact.omega_squared().clone(), shapes).unwrap();
-        let test = with_noise(&exact, NOISE, seed).unwrap();
-        let loaded = prepared(&of_matrices(&parts, &mass, &test));
-        let table = suspects_table(&loaded);
-        let name = format!("p{}", culprit + 1);
-        let place = table.rows.iter().position(|row| row.label == name);
-        rates.fit[0] += usize::from(place == Some(0));
-        rates.fit[1] += usize::from(place.is_some_and(|place| place < 3));
-        let first = loaded.analyze(&vec![1.0; parts.len()]).unwrap();
-        let settings = loaded.loaded.job.correlation.for_modes(MODES).inner;
-        let largest = by_factor(first.model(), &settings).unwrap();
-        rates.factor += usize::from(largest[0].parameter == culprit);
-    }
-    rates
-}
-
-/// Every structure's.
-pub fn all_job_rates(tests: u64) -> Vec<JobRates> {
-    KINDS[..STRUCTURES]
-        .iter()
-        .map(|kind| job_rates(*kind, tests))
-        .collect()
-}
-
 /// Alarms by each reading in noisy tests of right models of Cases 1 and 2, so many of each.
 ///
 /// # Errors
@@ -177,21 +114,18 @@ pub fn alarms(tests: u64) -> Result<[usize; 4], CaseError> {
     Ok(std::array::from_fn(|reading| one[reading] + two[reading]))
 }
 
-/// Boxes by how far they differ, alarms by each reading, and jobs.
-type Rates = (Vec<BoxRates>, [usize; 4], Vec<JobRates>);
-
-/// All of them.
+/// Boxes by how far they differ, and alarms by each reading.
 ///
 /// # Errors
 /// Those of [`box_rates`] and [`alarms`].
-pub fn all_rates() -> Result<Rates, CaseError> {
+pub fn all_rates() -> Result<(Vec<BoxRates>, [usize; 4]), CaseError> {
     let boxes = SIZES.map(|size| box_rates(size, BOXES));
     let boxes = boxes.into_iter().collect::<Result<_, _>>()?;
-    Ok((boxes, alarms(100)?, all_job_rates(TESTS)))
+    Ok((boxes, alarms(100)?))
 }
 
-/// How often what is a hundred times too thin is named, on other boxes and in jobs.
-pub fn detection_tables(boxes: &[BoxRates], alarms: [usize; 4], jobs: &[JobRates]) -> Vec<Table> {
+/// How often what is a hundred times too thin is named on other boxes.
+pub fn detection_table(boxes: &[BoxRates], alarms: [usize; 4]) -> Table {
     let place = |reading| READINGS.iter().position(|other| *other == reading);
     let by = [StepRule::Gage, StepRule::Own, StepRule::Matrix].map(place);
     let pick = |counts: &[usize; 4]| by.map(|place| Cell::count(counts[place.unwrap_or(0)]));
@@ -214,13 +148,5 @@ pub fn detection_tables(boxes: &[BoxRates], alarms: [usize; 4], jobs: &[JobRates
         table.row(format!("{label}: Cases 1 to 3"), pick(&rates.alarms));
     }
     table.row("right models with noise", pick(&alarms));
-    let title =
-        format!("One parameter of a structure a hundred times too thin: first of {TESTS} jobs");
-    let mut others = Table::new("detection_jobs", title, "Structure")
-        .headings(["Fit first", "Fit in three", "Factor first"], "");
-    for rates in jobs {
-        let counts = [rates.fit[0], rates.fit[1], rates.factor];
-        others.row(rates.name, counts.map(Cell::count));
-    }
-    vec![table, others]
+    table
 }

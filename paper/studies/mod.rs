@@ -8,7 +8,6 @@ pub mod delta_wing_tables;
 pub mod detection;
 pub mod diagram;
 pub mod eigensolutions;
-pub mod ends;
 pub mod fit;
 pub mod five_structures;
 pub mod known;
@@ -22,7 +21,6 @@ pub mod predictions;
 pub mod published_counts;
 pub mod reading_tables;
 pub mod readings;
-pub mod readings_rates;
 pub mod rules;
 pub mod specimen;
 pub mod tour_figures;
@@ -78,7 +76,7 @@ pub const QUICK: [Study; 11] = [
 ];
 
 /// Those that take minutes.
-pub const LONG: [Study; 5] = [
+pub const LONG: [Study; 6] = [
     ("coverage", || {
         Ok(csv(&coverage::coverage_tables(&coverage::all_coverages(
             coverage::SEEDS,
@@ -89,9 +87,10 @@ pub const LONG: [Study; 5] = [
         Ok(csv(&localization::localization_tables(&located)))
     }),
     ("detection", || {
-        let (boxes, alarms, jobs) = detection::all_rates()?;
-        Ok(csv(&detection::detection_tables(&boxes, alarms, &jobs)))
+        let (boxes, alarms) = detection::all_rates()?;
+        Ok(csv(&[detection::detection_table(&boxes, alarms)]))
     }),
+    ("wrong_models", || Ok(five_structures::all_wrong_rates())),
     ("intervals_structures", || {
         Ok(five_structures::all_interval_rates())
     }),

@@ -218,10 +218,6 @@ pub const GOLDEN_COUNT: f64 = 1.0;
 pub const LEAST_DETECTIONS: usize = 95;
 /// Least boxes of a hundred, unlike the reconstructed one, on which Case 4 names its faulty element: 67 to 73 when first counted.
 pub const LEAST_DETECTED_BOXES: usize = 65;
-/// Least jobs of thirty whose first suspect is the one parameter that is a hundred times too thin: four of five.
-pub const LEAST_FIRST_SUSPECTS: usize = 24;
-/// The same of ten jobs.
-pub const LEAST_FIRST_SUSPECTS_OF_TEN: usize = 8;
 /// Shapes of a subspace whose residual is 1e-10 of its root, divided by the distance of neighboring roots.
 pub const WHOLE_SHAPE: f64 = 1e-6;
 /// Stories of an exact building that five of ten floors recover without condensation, where the paper's loop stops at an error sum of a

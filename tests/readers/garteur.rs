@@ -70,6 +70,8 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
         (steps.best.stop, RESULT.verdict.outcome),
         (WeightedStop::Short, Outcome::Short)
     );
+    // A wall is no minimum.
+    assert!(RESULT.verdict.stationary.is_none() && RESULT.intervals.iter().all(Result::is_err));
     let blind = about(&RESULT.trust, "mostly-prior");
     let named = |name: &str| blind.iter().any(|blind| blind == name);
     assert!(named("tailplane") && named("joint"), "{blind:?}");

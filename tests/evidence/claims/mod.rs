@@ -5,7 +5,6 @@ pub mod delta_wing_correlation;
 pub mod delta_wing_scenario;
 pub mod detection;
 pub mod eigensolutions;
-pub mod ends;
 pub mod linearization;
 pub mod matrix_comparison;
 pub mod matrix_correction;
