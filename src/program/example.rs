@@ -1,7 +1,7 @@
 //! `corfem init --example`: the jobs of `tests/jobs`, with all their files.
 
 use super::output::note;
-use super::place::write_report;
+use super::place::write_files;
 use clap::ValueEnum;
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
@@ -42,22 +42,13 @@ impl Example {
 
     /// Writes the job and its files into a folder, made if it is new, and over none that is there.
     pub fn write(self, folder: &Path, quiet: bool) -> Result<(), PresentError> {
-        let paths = self
-            .files()
-            .iter()
-            .map(|(name, text)| (folder.join(name), text));
-        let paths: Vec<_> = paths.collect();
-        if let Some((path, _)) = paths.iter().find(|(path, _)| path.exists()) {
-            return Err(
-                FileError::of_file(path, "write")(Error::from(ErrorKind::AlreadyExists)).into(),
-            );
+        let files = self.files();
+        let mut paths = files.iter().map(|(name, _)| folder.join(name));
+        if let Some(path) = paths.find(|path| path.exists()) {
+            let found = Error::from(ErrorKind::AlreadyExists);
+            return Err(FileError::of_file(&path, "write")(found).into());
         }
-        if !folder.is_dir() {
-            std::fs::create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
-        }
-        for (path, text) in &paths {
-            write_report(Some(path), text)?;
-        }
+        write_files(folder, files.iter().copied())?;
         if !quiet {
             let job = folder.join("job.toml");
             note(format_args!(

@@ -294,8 +294,7 @@ fn write_results(
     let deck = loaded.corrected_deck(&found.factors);
     let bytes = deck.as_ref().ok().cloned().flatten();
     let all = texts.map(String::into_bytes).into_iter().chain(bytes);
-    let names = FILES.map(str::to_owned).into_iter();
-    write_files(folder, &names.zip(all).collect::<Vec<_>>())?;
+    write_files(folder, FILES.into_iter().zip(all))?;
     deck?;
     Ok(())
 }

@@ -4,8 +4,7 @@ use super::output::note;
 use super::paper::dump::dump as open;
 use super::paper::figures::{Figure, case_figures, comparison_figures};
 use super::paper::page::{Contents, page};
-use super::place::write_files;
-use super::place::write_report;
+use super::place::{write_files, write_report};
 use clap::Args;
 use corfem::present::PresentError;
 use corfem::present::table::counted;
@@ -54,16 +53,13 @@ fn drawn(quiet: bool) -> Result<CasesAndFigures, PresentError> {
 /// Writes the files of a run and notes their number.
 fn write_counted(
     folder: &Path,
-    files: &[(String, Vec<u8>)],
+    files: &[(String, String)],
     quiet: bool,
 ) -> Result<(), PresentError> {
-    write_files(folder, files)?;
+    write_files(folder, files.iter().cloned())?;
     if !quiet {
-        note(format_args!(
-            "{} files in {}",
-            files.len(),
-            folder.display()
-        ));
+        let count = files.len();
+        note(format_args!("{count} files in {}", folder.display()));
     }
     Ok(())
 }
@@ -75,7 +71,7 @@ pub fn figures(
 ) -> Result<(), PresentError> {
     let (_, _, figures) = drawn(quiet)?;
     let files = figures.into_iter();
-    let files = files.map(|Figure { name, svg, .. }| (format!("{name}.svg"), svg.into_bytes()));
+    let files = files.map(|Figure { name, svg, .. }| (format!("{name}.svg"), svg));
     let files: Vec<_> = files.collect();
     write_counted(folder, &files, quiet)
 }
@@ -97,9 +93,9 @@ pub fn report(arguments: &ReportArguments, quiet: bool) -> Result<(), PresentErr
         command: &format!("corfem report {place}"),
     })?;
     if let Some(folder) = &arguments.folder {
-        write_files(folder, &[("report.html".to_owned(), html.into_bytes())])
+        write_files(folder, [("report.html", html)])
     } else {
-        write_report(arguments.output.as_deref(), &html)
+        write_report(arguments.output.as_deref(), html)
     }
 }
 
@@ -118,13 +114,9 @@ pub struct DumpArguments {
 pub fn dump(arguments: &DumpArguments, quiet: bool) -> Result<(), PresentError> {
     let dump = open(&Case::new(arguments.case)?)?;
     let Some(folder) = &arguments.folder else {
-        return write_report(None, &dump.json);
+        return write_report(None, dump.json);
     };
-    let mut files = vec![("dump.json".to_owned(), dump.json.into_bytes())];
-    files.extend(
-        dump.matrices
-            .into_iter()
-            .map(|(name, text)| (name, text.into_bytes())),
-    );
+    let mut files = vec![("dump.json".to_owned(), dump.json)];
+    files.extend(dump.matrices);
     write_counted(folder, &files, quiet)
 }

@@ -34,15 +34,16 @@ pub fn check(file: Option<&Path>, folder: Option<&Path>) -> Result<(), PresentEr
     Ok(())
 }
 
-/// Writes to standard output, which `-` is too, through to a device or a pipe, or to a file, whole or not at all.
-pub fn write_report(path: Option<&Path>, text: &str) -> Result<(), PresentError> {
+/// Writes a result to standard output, which `-` is too, through to a device or a pipe, or to a file, whole or not at all.
+pub fn write_report(path: Option<&Path>, bytes: impl AsRef<[u8]>) -> Result<(), PresentError> {
+    let bytes = bytes.as_ref();
     let written = match named(path) {
-        None => stdout().write_all(text.as_bytes()),
+        None => stdout().write_all(bytes),
         Some(path) if is_device(path) => {
             let device = OpenOptions::new().append(true).open(path);
-            device.and_then(|mut device| device.write_all(text.as_bytes()))
+            device.and_then(|mut device| device.write_all(bytes))
         }
-        Some(path) => replace(path, text.as_bytes()),
+        Some(path) => replace(path, bytes),
     };
     match written {
         // A reader that closes the pipe early is no error.
@@ -54,14 +55,14 @@ pub fn write_report(path: Option<&Path>, text: &str) -> Result<(), PresentError>
     }
 }
 
-/// Writes the files of a run, by name and bytes, into a folder, made if it is new.
-pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<(), PresentError> {
+/// Writes the files of a run, by name and content, into a folder, made if it is new.
+pub fn write_files<T: AsRef<[u8]>>(
+    folder: &Path,
+    files: impl IntoIterator<Item = (impl AsRef<Path>, T)>,
+) -> Result<(), PresentError> {
     if !folder.is_dir() {
         create_dir(folder).map_err(FileError::of_file(folder, "write"))?;
     }
-    for (name, bytes) in files {
-        let path = folder.join(name);
-        replace(&path, bytes).map_err(FileError::of_file(&path, "write"))?;
-    }
-    Ok(())
+    let mut files = files.into_iter();
+    files.try_for_each(|(name, content)| write_report(Some(&folder.join(name)), content))
 }
