@@ -3,6 +3,9 @@
 use super::error::FileError;
 use std::borrow::Cow;
 
+/// The byte order mark of UTF-8.
+const MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// The text of a file in UTF-8, with or without a byte order mark, in UTF-16 with one, or else in Latin-1. Lines that a carriage return
 /// alone ends, as in old files, end by a line feed.
 pub(crate) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
@@ -27,7 +30,7 @@ fn in_characters(bytes: &[u8]) -> Cow<'_, str> {
         [0xfe, 0xff, ..] => return wide(u16::from_be_bytes),
         _ => {}
     }
-    let bytes = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let bytes = bytes.strip_prefix(MARK).unwrap_or(bytes);
     let latin_1 = || {
         bytes
             .iter()
@@ -35,6 +38,21 @@ fn in_characters(bytes: &[u8]) -> Cow<'_, str> {
             .collect::<String>()
     };
     std::str::from_utf8(bytes).map_or_else(|_| latin_1().into(), Cow::from)
+}
+
+/// A text in the encoding and with the ends of lines of a file from which it was [`decoded`].
+pub(crate) fn encoded(text: String, file: &[u8]) -> Vec<u8> {
+    let text = match file.contains(&b'\n') {
+        true => text,
+        false => text.replace('\n', "\r"),
+    };
+    let mark = if file.starts_with(MARK) { MARK } else { b"" };
+    // Text that is not in UTF-8 was read as Latin-1, which has no character above 255.
+    let bytes = match std::str::from_utf8(file) {
+        Ok(_) => text.into_bytes(),
+        Err(_) => text.chars().map(|c| u32::from(c) as u8).collect(),
+    };
+    [mark, &bytes].concat()
 }
 
 /// The text of a file, as by [`decoded`], unless its first bytes say that it is compressed or its bytes that it is binary.

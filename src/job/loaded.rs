@@ -11,12 +11,12 @@ use crate::files::read_bytes;
 use crate::files::test_data::TestData;
 use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
-use crate::method::structure::{Element, Material};
 use crate::sparse::{Place, SparseMatrix, WholeParameter, WholeShare, no_modes};
 use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
 use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -213,28 +213,18 @@ impl LoadedJob {
     /// # Errors
     /// Those of [`rewrite`].
     pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
-        let Some((bytes, deck)) = &self.source.deck else {
+        let Some((bytes, _)) = &self.source.deck else {
             return Ok(None);
         };
-        let (mut elements, mut masses) = (deck.model.elements.clone(), deck.model.masses.clone());
+        let (mut elements, mut masses) = (BTreeMap::new(), BTreeMap::new());
         let parameters = self.source.whole.parameters().iter();
         let parameters = parameters.zip(&self.source.members).zip(factors);
         for ((WholeParameter { share, .. }, members), factor) in parameters {
-            for point in masses
-                .iter_mut()
-                .filter(|point| members.masses.binary_search(&point.label).is_ok())
-            {
-                point.mass *= factor;
+            for label in &members.masses {
+                *masses.entry(*label).or_insert(1.0) *= factor;
             }
-            for element in elements
-                .iter_mut()
-                .filter(|element| members.elements.binary_search(&element.label).is_ok())
-            {
-                let Element {
-                    size,
-                    material: Material { density, .. },
-                    ..
-                } = element;
+            for label in &members.elements {
+                let [size, density] = elements.entry(*label).or_insert([1.0; 2]);
                 match share {
                     WholeShare::Stiffness(_) => {
                         (*size, *density) = (*size * factor, *density / factor)

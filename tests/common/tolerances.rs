@@ -152,6 +152,8 @@ pub const FILL_ORDER: f64 = 0.1;
 pub const FIELD_ROUNDING: f64 = 5e-10;
 /// It holds twelve of numbers between 1e-9 and 1e9, with a sign and an exponent.
 pub const DECK_ROUNDING: f64 = 5e-12;
+/// A number with which a deck is rewritten: what the crate promises.
+pub const WRITTEN: f64 = 1e-6;
 /// Roots of a pencil with singular mass against those of its dynamic part: round-off times the condition of the dynamic
 /// flexibility, up to 1e7 for the strategy's stiffness (1e3) and T (1e2, squared), 2e5 for the box.
 pub const SINGULAR_MASS_ROOT: f64 = 1e-8;

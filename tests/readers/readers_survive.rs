@@ -84,8 +84,8 @@ const READERS: &[Reader] = &[
         read_output5(&String::from_utf8_lossy(text), 10_000).is_ok()
     }),
     ("deck to be rewritten", include_bytes!("../../golden/formats/original.bdf"), |text| {
-        let deck = read_deck("deck", include_bytes!("../../golden/formats/rewritten.bdf"), &[]).unwrap();
-        rewrite("deck", text, &deck.model.elements, &[]).is_ok()
+        let factors = BTreeMap::from([(12, [1.1, 0.5]), (21, [0.5, 1.0])]);
+        rewrite("deck", text, &factors, &BTreeMap::from([(91, 2.0)])).is_ok()
     }),
     ("Matrix Market", include_bytes!("../../golden/formats/symmetric.mtx"), |text| read_matrix("m", text, None).is_ok()),
     ("array of Matrix Market", include_bytes!("../../golden/formats/skew_array.mtx"), |text| {

@@ -52,13 +52,24 @@ pub(crate) type Numbered<T> = BTreeMap<usize, Kept<T>>;
 impl Card {
     /// A field by its NASTRAN number: 2 to 9 on the first line, 12 to 19 on the first continuation and so on.
     fn field(&self, number: usize) -> Option<&Field> {
-        let place = (number % 10).checked_sub(2)?;
-        self.fields.get(FIELDS_PER_LINE * (number / 10) + place)
+        self.fields.get(place(number))
     }
 
     /// Text of a field by its number; empty if there is none.
     pub fn text(&self, field: usize) -> &str {
         self.field(field).map_or("", |field| field.text.as_str())
+    }
+
+    /// Texts of all fields.
+    pub fn texts(&self) -> Vec<String> {
+        self.fields.iter().map(|field| field.text.clone()).collect()
+    }
+
+    /// Writes a field anew.
+    pub fn set(&mut self, field: usize, text: String) {
+        let whole = self.fields.len().max(place(field) + 1);
+        self.fields.resize(whole, Field::blank(self.line));
+        self.fields[place(field)].text = text;
     }
 
     /// Numbers of the fields that are not blank, in order.
@@ -189,4 +200,9 @@ impl Card {
         all.get(&self.label(field)?)
             .ok_or_else(|| self.wrong(field, &format!("the number of a {card} card")))
     }
+}
+
+/// Place among the fields of one by its NASTRAN number, whose last digit is 2 to 9.
+fn place(number: usize) -> usize {
+    FIELDS_PER_LINE * (number / 10) + number % 10 - 2
 }

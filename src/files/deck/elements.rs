@@ -29,6 +29,9 @@ pub(super) struct ElementCards {
     pub connections: Numbered<Option<usize>>,
     pub properties: [Numbered<()>; 4],
     pub materials: Numbered<Material>,
+    /// Point masses, and masses of PMASS cards.
+    pub points: Numbered<()>,
+    masses: Numbered<()>,
     /// Materials of which E alone is given: rods need no more.
     axial: Vec<usize>,
     /// Cards that give rods torsion, which no stiffness includes: grids have no rotations.
@@ -60,15 +63,8 @@ impl<T> Kept<Option<T>> {
     }
 }
 
-/// Takes the masses of a PMASS card, up to four with their numbers.
-pub(super) fn take_masses(card: &Card, masses: &mut Numbered<f64>) -> Result<(), FileError> {
-    let starts = [2, 4, 6, 8].into_iter();
-    let mut filled = starts.filter(|&start| start == 2 || !card.text(start).is_empty());
-    filled.try_for_each(|start| card.keep(start, card.positive(start + 1)?, masses))
-}
-
 impl ElementCards {
-    /// Takes a card of an element, a property or a material.
+    /// Takes a card of an element, a property, a material or a mass; any other has none.
     pub fn take(&mut self, card: &Card) -> Result<(), FileError> {
         let name = card.name.as_str();
         // In field 6 of PSHEAR some programs have a second entry's number, and others a real number.
@@ -105,6 +101,16 @@ impl ElementCards {
                     .extend(is_axial.then(|| card.label(2)).transpose()?);
                 card.keep(2, material(card)?, &mut self.materials)?;
             }
+            "CMASS1" | "CMASS2" | "CONM2" => card.keep(2, (), &mut self.points)?,
+            // Up to four masses, each behind its number.
+            "PMASS" => {
+                for start in [2, 4, 6, 8] {
+                    if start == 2 || !card.text(start).is_empty() {
+                        card.positive(start + 1)?;
+                        card.keep(start, (), &mut self.masses)?;
+                    }
+                }
+            }
             _ => {}
         }
         Ok(())
@@ -129,6 +135,37 @@ impl ElementCards {
         let field = connection.property_field();
         let property = card.referred(field, &self.properties[row], ELEMENT_CARDS[row].1)?;
         Holder::new(&property.card, property.start + 2)
+    }
+
+    /// The card that has a point mass, its own or a PMASS, and the field.
+    pub fn mass<'a>(&'a self, card: &'a Card) -> Result<(&'a Card, usize), FileError> {
+        if card.name == "CMASS1" {
+            let kept = card.referred(3, &self.masses, "PMASS")?;
+            return Ok((&kept.card, kept.start + 1));
+        }
+        Ok((card, if card.name == "CMASS2" { 3 } else { 5 }))
+    }
+
+    /// A point mass: CMASS2, or CMASS1 with the mass of a PMASS card, on one direction of a grid, or CONM2 on all three.
+    pub fn point_mass(&self, card: &Card, motions: &Motions) -> Result<PointMass, FileError> {
+        let (label, mut grid, mut direction) = (card.label(2)?, 3, None);
+        if card.name.starts_with("CMASS") {
+            card.absent(6, "masses between two degrees of freedom")?;
+            grid = 4;
+            let axis = motions.axis(card.label(grid)?, card.direction(5)?);
+            direction = Some(axis.ok_or_else(|| card.error(5, OBLIQUE))?);
+        } else {
+            // A mass that is the same in all directions has no axes: any system will do.
+            (6..=8).try_for_each(|field| card.absent(field, "offsets of masses"))?;
+            (12..=17).try_for_each(|field| card.absent(field, "rotary inertia"))?;
+        }
+        let (holder, field) = self.mass(card)?;
+        Ok(PointMass {
+            label,
+            grid: card.label(grid)?,
+            direction,
+            mass: holder.positive(field)?,
+        })
     }
 
     /// The elements by number, and the cards that they refer to; property, material and grids must exist.
@@ -248,37 +285,5 @@ fn material(card: &Card) -> Result<Material, FileError> {
         shear_modulus,
         density,
         ..derived
-    })
-}
-
-/// CMASS2, or CMASS1 with the mass of a PMASS card, on one direction of a grid, or CONM2 on all three.
-pub(super) fn point_mass(
-    card: &Card,
-    properties: &Numbered<f64>,
-    motions: &Motions,
-) -> Result<PointMass, FileError> {
-    let label = card.label(2)?;
-    if card.name.starts_with("CMASS") {
-        card.absent(6, "masses between two degrees of freedom")?;
-        let grid = card.label(4)?;
-        let axis = motions.axis(grid, card.direction(5)?);
-        return Ok(PointMass {
-            label,
-            grid,
-            direction: Some(axis.ok_or_else(|| card.error(5, OBLIQUE))?),
-            mass: match card.name.as_str() {
-                "CMASS1" => card.referred(3, properties, "PMASS")?.value,
-                _ => card.positive(3)?,
-            },
-        });
-    }
-    // A mass that is the same in all directions has no axes: any system will do.
-    (6..=8).try_for_each(|field| card.absent(field, "offsets of masses"))?;
-    (12..=17).try_for_each(|field| card.absent(field, "rotary inertia"))?;
-    Ok(PointMass {
-        label,
-        grid: card.label(3)?,
-        direction: None,
-        mass: card.positive(5)?,
     })
 }

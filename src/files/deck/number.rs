@@ -4,6 +4,9 @@
 pub const SMALL_FIELD: usize = 8;
 /// Width of a field of the large format, in characters.
 pub const LARGE_FIELD: usize = 16;
+/// Part of itself by which a number that was changed may be rounded, so that it stays in a field of eight characters: a thousandth of
+/// what the best tests tell of a size.
+const WRITTEN: f64 = 1e-6;
 /// Significant digits that always suffice to tell two numbers apart.
 const ALL_DIGITS: usize = 17;
 
@@ -62,12 +65,30 @@ pub fn exact_real(value: f64, width: usize) -> Option<String> {
 /// At least ten significant digits are kept, and twelve or more of a number between $10^{-9}$ and $10^9$. A number
 /// that was read from such a field is always written exactly. A value that is not finite has no such form: `None`.
 pub fn large_real(value: f64) -> Option<String> {
-    exact_real(value, LARGE_FIELD).or_else(|| {
+    nearest_real(value, LARGE_FIELD)
+}
+
+/// The shortest NASTRAN real of at most `width` characters that is exact, or else the nearest that fits.
+fn nearest_real(value: f64, width: usize) -> Option<String> {
+    exact_real(value, width).or_else(|| {
         (1..ALL_DIGITS)
             .rev()
             .filter_map(|digits| layout(&format!("{value:.*e}", digits - 1)))
-            .find(|text| text.len() <= LARGE_FIELD)
+            .find(|text| text.len() <= width)
     })
+}
+
+/// The nearest NASTRAN real of at most 8 characters, or, where that is farther off than a millionth, of at most 16.
+///
+/// A value that is not finite has no such form and is given as it is.
+pub fn written_real(value: f64) -> String {
+    let is_near = |text: &String| {
+        parse_real(text).is_some_and(|own| (own - value).abs() <= WRITTEN * value.abs())
+    };
+    let short = nearest_real(value, SMALL_FIELD).filter(is_near);
+    short
+        .or_else(|| large_real(value))
+        .unwrap_or_else(|| value.to_string())
 }
 
 /// The nearest number that a 16-character field can hold; `value` itself if there is none.

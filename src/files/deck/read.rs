@@ -1,10 +1,10 @@
 //! The reader, from cards to the model that they describe: the cards that are read, those that do not matter to the model, and
 //! those that may matter but are unknown.
 
-use super::card::{Card, Numbered};
+use super::card::{Card, Kept, Numbered};
 use super::constraints::Constraints;
 use super::coordinates;
-use super::elements::{ElementCards, Members, point_mass, take_masses};
+use super::elements::{ElementCards, Members};
 use super::lines::{INCLUDES, Joined, Selected, join, sections};
 use super::model::{BulkData, PointMass};
 use super::number::nearest_in_field;
@@ -91,8 +91,6 @@ struct Found {
     weight: Option<Card>,
     grids: Numbered<()>,
     elements: ElementCards,
-    masses: Numbered<()>,
-    mass_properties: Numbered<f64>,
     systems: Numbered<()>,
     constraints: Constraints,
 }
@@ -108,8 +106,6 @@ impl Found {
             "GRID" => card.keep(2, (), &mut self.grids),
             "GRDSET" => once(&mut self.grid_default, card, "GRDSET card"),
             "PARAM" => once(&mut self.weight, card, "PARAM,WTMASS"),
-            "PMASS" => take_masses(&card, &mut self.mass_properties),
-            "CMASS1" | "CMASS2" | "CONM2" => card.keep(2, (), &mut self.masses),
             "CORD2R" | "CORD2C" => card.keep(2, (), &mut self.systems),
             "SPC" | "SPC1" | "SPCADD" | "MPC" | "MPCADD" => self.constraints.take(card),
             _ => self.elements.take(&card),
@@ -134,10 +130,10 @@ impl Found {
         let default = self.grid_default.as_ref();
         let (mut grids, motions) = coordinates::grids(&self.grids, &self.systems, default)?;
         self.constraints.constrain(&mut grids, &motions)?;
-        let masses = self.masses.values().map(|kept| {
-            let field = if kept.card.name == "CONM2" { 3 } else { 4 };
-            kept.card.referred(field, &grids, "GRID")?;
-            point_mass(&kept.card, &self.mass_properties, &motions)
+        let masses = self.elements.points.values().map(|Kept { card, .. }| {
+            let field = if card.name == "CONM2" { 3 } else { 4 };
+            card.referred(field, &grids, "GRID")?;
+            self.elements.point_mass(card, &motions)
         });
         let mut masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
         let (mut elements, members) = self.elements.elements(&grids)?;

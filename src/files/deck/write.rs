@@ -74,7 +74,7 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
 
 /// Cards as text.
 #[derive(Default)]
-pub(super) struct Cards {
+pub(crate) struct Cards {
     pub text: String,
     /// Beginning of the names of continuations.
     pub prefix: String,
@@ -83,6 +83,15 @@ pub(super) struct Cards {
 }
 
 impl Cards {
+    /// Cards beside others: no continuation's name and no remark in field 10 of this text begins as theirs.
+    pub fn beside(text: &str) -> Self {
+        let (text, mut cards) = (text.to_ascii_uppercase(), Self::default());
+        while cards.prefix.is_empty() || text.contains(&cards.prefix) {
+            cards.prefix.push('Z');
+        }
+        cards
+    }
+
     fn model(&mut self, model: &BulkData) -> Result<(), FileError> {
         for Grid {
             label,
@@ -195,12 +204,12 @@ impl Cards {
         let mut is_large = name == "GRID";
         let mut fields = Vec::new();
         for (column, entry) in entries.split(',').enumerate() {
-            let (label, real) = (entry.parse::<usize>(), entry.parse::<f64>());
+            let (label, real) = (entry.parse::<isize>(), entry.parse::<f64>());
             is_large |= entry.len() > SMALL_FIELD && real.is_err();
             fields.push(match (label, real) {
-                (Ok(label), _) if label > LARGEST_LABEL => {
+                (Ok(label), _) => {
                     let what = "number of a grid or element in a deck";
-                    check_count(what, label, 1, LARGEST_LABEL)?;
+                    check_count(what, label.unsigned_abs().max(1), 1, LARGEST_LABEL)?;
                     entry.to_owned()
                 }
                 (Err(_), Ok(value)) => {
