@@ -7,6 +7,7 @@ use super::{Job, Method, ModelSource, PreparedJob, read};
 use crate::files::deck::rewrite;
 use crate::files::disk::file_of;
 use crate::files::error::FileError;
+use crate::files::matrices::{write_dmig, write_matrix_market};
 use crate::files::read_bytes;
 use crate::files::test_data::TestData;
 use crate::method::error::{Error, at_least_one};
@@ -206,15 +207,34 @@ impl LoadedJob {
             .collect())
     }
 
-    /// The deck with elements and point masses scaled by `factors` and every other byte as it was; none for a model of matrices.
+    /// The corrected model's files, by name: the deck with elements and point masses scaled by `factors` and every other byte as it was, or
+    /// stiffness and mass of all rows, as DMIG where they came so and else in the Matrix Market's format.
     ///
     /// A factor on stiffness changes an element's size and takes its density down by as much; one on mass changes its density.
     ///
     /// # Errors
-    /// Those of [`rewrite`].
-    pub fn corrected_deck(&self, factors: &[f64]) -> Result<Option<Vec<u8>>, FileError> {
+    /// Those of [`rewrite`] and of [`WholeModel::at`](crate::sparse::WholeModel::at).
+    pub fn corrected_model(
+        &self,
+        factors: &[f64],
+    ) -> Result<Vec<(String, Vec<u8>)>, FileError> {
+        let ModelSource {
+            all, labels, dmig, ..
+        } = &*self.source;
         let Some((bytes, _)) = &self.source.deck else {
-            return Ok(None);
+            let (stiffness, mass) = all.at(factors)?;
+            let both = [("stiffness", stiffness), ("mass", mass)].into_iter();
+            let written = both.zip(dmig).map(|((file, matrix), name)| match name {
+                Some(name) => {
+                    let text = write_dmig(name, labels, &matrix)?;
+                    Ok((format!("{file}.pch"), text.into_bytes()))
+                }
+                None => {
+                    let text = write_matrix_market(&matrix);
+                    Ok((format!("{file}.mtx"), text.into_bytes()))
+                }
+            });
+            return written.collect();
         };
         let (mut elements, mut masses) = (BTreeMap::new(), BTreeMap::new());
         let parameters = self.source.whole.parameters().iter();
@@ -239,7 +259,8 @@ impl LoadedJob {
             .deck
             .as_ref()
             .map_or_else(String::new, |path| path.display().to_string());
-        rewrite(&name, bytes, &elements, &masses).map(Some)
+        let deck = rewrite(&name, bytes, &elements, &masses)?;
+        Ok(vec![("corrected.bdf".to_owned(), deck)])
     }
 
     /// Names of the parameters.

@@ -57,7 +57,15 @@ pub(super) fn from_matrices(
             )
         })?;
     }
-    let mass = on_rows(job, (mass, "model.mass"), &row_of, count)?;
+    let LabeledMatrix {
+        matrix: mass, dmig, ..
+    } = on_rows(job, (mass, "model.mass"), &row_of, count)?;
+    let label = |own: &StructuralDof| Label {
+        grid: own.grid,
+        component: own.direction + 1,
+    };
+    let by_rows = || labels.iter().map(label).collect();
+    let named = stiffness.rows.unwrap_or_else(by_rows);
     let (mut parameters, mut priors) = (Vec::new(), Vec::new());
     for rule in &job.parameters {
         let name = &rule.name;
@@ -77,7 +85,7 @@ pub(super) fn from_matrices(
             ))
         })?;
         let entry = format!("parameter \"{name}\"");
-        let mut matrix = on_rows(job, (file, &entry), &row_of, count)?;
+        let mut matrix = on_rows(job, (file, &entry), &row_of, count)?.matrix;
         if let Some(at) = at {
             let first = match scales {
                 Scales::Stiffness => &stiffness.matrix,
@@ -117,6 +125,9 @@ pub(super) fn from_matrices(
     };
     let members = vec![Default::default(); whole.parameters().len()];
     Ok(ModelSource {
+        all: whole.clone(),
+        labels: named,
+        dmig: [stiffness.dmig, dmig],
         whole,
         geometry,
         motions,
@@ -147,7 +158,7 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
     } = matrix(&job, file, "--stiffness", None)?;
     let dof: Vec<_> = rows.iter().flatten().map(degree_of_freedom).collect();
     let row_of = (0..).zip(&dof).map(|(row, dof)| (*dof, row)).collect();
-    let mass = on_rows(&job, (mass, "--mass"), &row_of, stiffness.rows())?;
+    let mass = on_rows(&job, (mass, "--mass"), &row_of, stiffness.rows())?.matrix;
     let most = most.min(stiffness.rows());
     let rows_with_mass = motions_with_mass(&mass);
     let name = |row: usize| row_name(row, &dof);
@@ -309,10 +320,10 @@ fn on_rows(
     (file, entry): (&Path, &str),
     row_of: &BTreeMap<StructuralDof, usize>,
     count: usize,
-) -> Result<SparseMatrix, FileError> {
-    let LabeledMatrix { rows, matrix, .. } = matrix(job, file, entry, Some(count))?;
-    let Some(labels) = &rows else {
-        return Ok(matrix);
+) -> Result<LabeledMatrix, FileError> {
+    let found = matrix(job, file, entry, Some(count))?;
+    let (Some(labels), matrix) = (&found.rows, &found.matrix) else {
+        return Ok(found);
     };
     let stranger = labels
         .iter()
@@ -331,7 +342,10 @@ fn on_rows(
         row_of.len(),
         entries.collect(),
     )?;
-    Ok(all.with_half_unit(matrix.half_unit()))
+    Ok(LabeledMatrix {
+        matrix: all.with_half_unit(matrix.half_unit()),
+        ..found
+    })
 }
 
 /// Labels and places of a model's rows, and the largest part of a coordinate by which it is rounded.

@@ -225,8 +225,8 @@ impl Method {
 /// Most numbers in one list, against a slip of the finger that fills the memory.
 const MOST_LABELS: usize = 10_000_000;
 
-/// Files of a result, that of decks last.
-pub const FILES: [&str; 7] = [
+/// Files of a result, those of the corrected model last.
+pub const FILES: [&str; 11] = [
     "report.html",
     "factors.csv",
     "shapes.csv",
@@ -234,6 +234,10 @@ pub const FILES: [&str; 7] = [
     "residuals.csv",
     "correlation.json",
     "corrected.bdf",
+    "stiffness.mtx",
+    "mass.mtx",
+    "stiffness.pch",
+    "mass.pch",
 ];
 
 /// Refuses a report and a folder of [`FILES`] over what a run reads: files that are named, or those of a job. One that cannot be read is

@@ -3,6 +3,7 @@
 use super::{Job, ParameterRule, Scales};
 use crate::files::deck::{self, Deck, Membership};
 use crate::files::error::FileError;
+use crate::files::matrices::Label;
 use crate::files::test_data::DIRECTIONS;
 use crate::method::appendix_a::element_matrices;
 use crate::method::error::Error;
@@ -38,6 +39,12 @@ pub struct Members {
 pub struct ModelSource {
     /// Matrices of the model.
     pub whole: WholeModel,
+    /// The same with the parts that no sensor sees.
+    pub all: WholeModel,
+    /// Labels of the rows of a model of matrices.
+    pub labels: Vec<Label>,
+    /// Names of its stiffness and mass where they came as DMIG.
+    pub dmig: [Option<String>; 2],
     /// Grids of the model.
     pub geometry: GridLayout,
     /// Rows of the model and their coefficients for every degree of freedom that moves, rotations (directions 3 to 5) among them.
@@ -259,6 +266,9 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
     };
     drop(motion_of);
     Ok(ModelSource {
+        all: whole.clone(),
+        labels: Vec::new(),
+        dmig: Default::default(),
         whole,
         geometry,
         motions,

@@ -50,7 +50,7 @@ pub struct InitArguments {
 
 #[derive(Debug, Args)]
 pub struct CorrelateArguments {
-    /// Also write report.html, factors.csv, shapes.csv, shapes.unv, residuals.csv, correlation.json and the corrected deck into this folder, created if new
+    /// Also write report.html, factors.csv, shapes.csv, shapes.unv, residuals.csv, correlation.json and the corrected model into this folder, created if new
     #[arg(long, value_name = "DIR")]
     folder: Option<PathBuf>,
     /// Start Gauss-Newton steps from this many points: the model itself, and others drawn from the seed
@@ -284,17 +284,13 @@ fn command(arguments: &CorrelateArguments) -> String {
     )
 }
 
-/// Writes the files of a result and its corrected deck; a deck that cannot be written does not lose the others of a long correlation.
+/// Writes the files of a result and then its corrected model: one that cannot be written does not lose the others of a long correlation.
 fn write_results(
     folder: &Path,
     texts: [String; 6],
     found: &CorrelatedJob,
 ) -> Result<(), PresentError> {
+    write_files(folder, FILES.into_iter().zip(texts))?;
     let loaded = &found.prepared.loaded;
-    let deck = loaded.corrected_deck(&found.factors);
-    let bytes = deck.as_ref().ok().cloned().flatten();
-    let all = texts.map(String::into_bytes).into_iter().chain(bytes);
-    write_files(folder, FILES.into_iter().zip(all))?;
-    deck?;
-    Ok(())
+    write_files(folder, loaded.corrected_model(&found.factors)?)
 }

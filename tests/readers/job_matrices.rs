@@ -1,7 +1,9 @@
 //! Models of a job that are matrices: which row is which grid and direction, and mistakes in saying so.
 
-use crate::common::jobs::said;
+use crate::common::jobs::{placed, said};
 use crate::prelude::*;
+use crate::readers::job_unseen::{self, chain};
+use corfem::job::LoadedJob;
 
 /// DMIG of the chain of the rods: the stiffness names its rows in ascending order, the mass misses one.
 fn named_matrices(mass: &[(usize, f64)]) -> Files {
@@ -188,5 +190,50 @@ fn a_number_without_a_square_is_refused_by_its_line() {
         let test = format!("frequency_hz,,1.0\nname,direction,mode 1\na,x,1.0\nb,x,{value}\n");
         let error = test_data::read("t", test.as_bytes()).unwrap_err();
         assert!(error.to_string().starts_with("t, line 4: "), "{error}");
+    }
+}
+
+/// The law: a job of its own corrected matrices has K(s) and M(s), parts that no sensor sees among them: bit for bit in the format of the
+/// Matrix Market, to the last digit of a field as DMIG.
+#[test]
+fn corrected_matrices_read_back_as_those_at_the_factors() {
+    for seed in 0..6 {
+        let mut draws = Draws(seed);
+        let unseen = (vec![(0, None, 1e6), (1, Some(0), 1e6)], vec![1.0, 2.0]);
+        let (mut files, within) = match seed % 2 {
+            0 => (
+                job_unseen::files(&chain(&mut draws), &unseen, 0.0, &mut draws),
+                0.0,
+            ),
+            _ => (named_matrices(&[(4, 3.0), (3, 2.0)]), FIELD_ROUNDING),
+        };
+        let load = |files: &Files| {
+            let (_folder, path) = placed(files);
+            LoadedJob::new(&path).unwrap()
+        };
+        let first = load(&files);
+        let factors = first
+            .parameter_names()
+            .map(|_| draws.between(0.5, 2.0))
+            .collect_vec();
+        let (stiffness, mass) = first.source.all.at(&factors).unwrap();
+        for (name, bytes) in first.corrected_model(&factors).unwrap() {
+            files.retain(|own| own.0 != name);
+            files.push((name, String::from_utf8(bytes).unwrap()));
+        }
+        let job = files[0].1.replace("model.pch#KAAX", "stiffness.pch");
+        files[0].1 = job.replace("model.pch#MAAX", "mass.pch");
+        let again = load(&files)
+            .source
+            .all
+            .at(&vec![1.0; factors.len()])
+            .unwrap();
+        for (read, wanted) in [(again.0, stiffness), (again.1, mass)] {
+            let (read, wanted) = (read.dense(), wanted.dense());
+            assert_eq!(read.shape(), wanted.shape());
+            for (read, wanted) in read.iter().zip(&wanted) {
+                assert!((read - wanted).abs() <= within * wanted.abs(), "{read}");
+            }
+        }
     }
 }

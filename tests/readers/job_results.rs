@@ -458,8 +458,8 @@ fn a_corrected_deck_has_factors_in_sizes_and_densities() {
         ),
         (mass, [2.5, 1.0], [(0.1, 0.01), (0.1, 0.0), (0.1, 0.0)]),
     ] {
-        let bytes = prepared(&files).loaded.corrected_deck(&factors).unwrap();
-        let deck = deck::read("corrected", &bytes.unwrap(), &[]).unwrap();
+        let written = prepared(&files).loaded.corrected_model(&factors).unwrap();
+        let deck = deck::read("corrected", &written[0].1, &[]).unwrap();
         let elements = deck.model.elements.iter();
         let sizes = elements.map(|element| (element.size, element.material.density));
         assert_eq!(sizes.collect_vec(), expected);

@@ -140,7 +140,7 @@ fn corrected(path: &Path) -> Result<bool, PresentError> {
     assert!(!render::csv(&tables).is_empty() && !render::text(&tables).is_empty());
     json::own_document(json::report(&report)?)?;
     report_page(&report, &tables[4..], "corfem", "")?;
-    loaded.loaded.corrected_deck(&result.found.factors)?;
+    loaded.loaded.corrected_model(&result.found.factors)?;
     Ok(result
         .found
         .factors

@@ -33,6 +33,7 @@ mod write;
 pub(super) use card::Card;
 pub(crate) use elements::Membership;
 pub(super) use lines::cards;
+pub(super) use write::Cards;
 
 pub use model::{BulkData, PointMass, Tie};
 #[doc(hidden)]

@@ -80,5 +80,6 @@ fn of_entries(file: &str, entries: &[Entry]) -> Result<LabeledMatrix, FileError>
         rows: Some(labels.clone()),
         columns: Some(labels),
         matrix: matrix.with_half_unit(digits.half_unit()),
+        dmig: None,
     })
 }

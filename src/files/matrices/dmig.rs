@@ -1,7 +1,7 @@
 //! DMIG cards of bulk data: matrices at grids and components, as NASTRAN takes and punches them.
 
 use super::{Digits, FoundMatrices, Label, LabeledMatrix, is_wanted};
-use crate::files::deck::{Card, cards};
+use crate::files::deck::{Card, Cards, cards};
 use crate::files::error::FileError;
 use crate::sparse::SparseMatrix;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
@@ -108,7 +108,36 @@ fn matrix(header: &Card, cards: &[&Card]) -> Result<LabeledMatrix, FileError> {
         rows: Some(rows),
         columns: Some(columns),
         matrix: matrix.with_half_unit(digits.half_unit()),
+        dmig: Some(header.text(2).to_owned()),
     })
+}
+
+/// A matrix as DMIG cards with these labels of its rows and columns, every number by the nearest of a field; of a symmetric one the lower
+/// triangle.
+///
+/// # Errors
+/// [`Error::Value`](crate::method::error::Error::Value) and [`Error::Count`](crate::method::error::Error::Count) for numbers that no card
+/// can hold.
+pub(crate) fn write_dmig(
+    name: &str,
+    labels: &[Label],
+    matrix: &SparseMatrix,
+) -> Result<String, FileError> {
+    let form = if matrix.is_symmetric() { 6 } else { 1 };
+    let at = |row: usize| format!("{},{}", labels[row].grid, labels[row].component);
+    let mut columns = BTreeMap::new();
+    for (row, column, value) in matrix.entries() {
+        if value != 0.0 && (form == 1 || row >= column) {
+            let own = columns.entry(column);
+            let entries: &mut String = own.or_insert_with(|| format!("{name},{}", at(column)));
+            *entries += &format!(",,{},{value:?}", at(row));
+        }
+    }
+    let mut cards = Cards::default();
+    cards.push("DMIG", &format!("{name},0,{form},2,0"))?;
+    let mut columns = columns.values();
+    columns.try_for_each(|entries| cards.push("DMIG", entries))?;
+    Ok(cards.text)
 }
 
 /// A grid in a field and its component, blank or 0 for a scalar point, in the next.

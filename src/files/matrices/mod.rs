@@ -9,6 +9,7 @@ mod matrix_market;
 mod output4;
 
 pub(crate) use digits::Digits;
+pub(crate) use dmig::write_dmig;
 #[doc(hidden)]
 pub use matrix_market::write_matrix_market;
 
@@ -30,12 +31,14 @@ pub struct Label {
 /// A matrix of a file, with the labels of its rows and columns where the file has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LabeledMatrix {
-    /// Labels of the rows, ascending. Only DMIG has them.
+    /// Labels of the rows, ascending. DMIG and Abaqus have them.
     pub rows: Option<Vec<Label>>,
     /// Labels of the columns; a square or symmetric matrix has one list for both, of all labels in either.
     pub columns: Option<Vec<Label>>,
     /// The matrix, a symmetric one with both triangles.
     pub matrix: SparseMatrix,
+    /// Its name, if it came as DMIG.
+    pub dmig: Option<String>,
 }
 
 /// Reads a real matrix from a file, `name` in messages: in Matrix Market's format if it begins with `%%MatrixMarket`, as
@@ -58,6 +61,7 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
             rows: None,
             columns: None,
             matrix,
+            dmig: None,
         });
     }
     let is_dmig = text.lines().any(|line| begins(line.trim_start(), "DMIG"));

@@ -64,6 +64,7 @@ pub(super) fn read(
                 rows: None,
                 columns: None,
                 matrix,
+                dmig: None,
             });
         } else {
             // Only a header has a name behind four integers.
