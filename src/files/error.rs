@@ -121,6 +121,11 @@ impl FileError {
     }
 }
 
+/// Ends a function with an error unless something is met: `ensure(is_met, || error)?`.
+pub(crate) fn ensure<E>(is_met: bool, error: impl FnOnce() -> E) -> Result<(), E> {
+    if is_met { Ok(()) } else { Err(error()) }
+}
+
 /// Says that a text is missing, or that it is not what belongs there.
 pub(crate) fn is_not(text: &str, what: &str) -> String {
     if text.is_empty() {

@@ -6,7 +6,7 @@ use super::sensors::{PlacedSensor, place};
 use super::{Job, Method, ModelSource, PreparedJob, read};
 use crate::files::deck::rewrite;
 use crate::files::disk::file_of;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, ensure};
 use crate::files::matrices::{write_dmig, write_matrix_market};
 use crate::files::read_bytes;
 use crate::files::test_data::TestData;
@@ -65,29 +65,34 @@ impl LoadedJob {
         let (source, sensors) = watched(source, sensors, &data)?;
         let available = data.frequencies_hz.len();
         let numbers = job.test.modes.clone().unwrap_or_else(|| data.vibrations());
-        let unknown = numbers.iter().find(|mode| !(1..=available).contains(*mode));
-        job.refuse_if(unknown, |mode| {
-            format!("test.modes: there is no mode {mode}; the test has 1 to {available}")
-        })?;
-        let rigid = numbers
-            .iter()
-            .find(|mode| data.rigid.contains(&(*mode - 1)));
-        job.refuse_if(rigid, |mode| {
-            format!(
-                "test.modes: mode {mode} has a frequency of 0 Hz; a rigid-body mode is not compared"
-            )
-        })?;
+        let refused = |reason: String| job.refused(format!("test.{reason}"));
+        for mode in &numbers {
+            ensure((1..=available).contains(mode), || {
+                refused(format!(
+                    "modes: there is no mode {mode}; the test has 1 to {available}"
+                ))
+            })?;
+        }
+        for mode in &numbers {
+            ensure(!data.rigid.contains(&(mode - 1)), || {
+                refused(format!(
+                    "modes: mode {mode} has a frequency of 0 Hz; a rigid-body mode is not compared"
+                ))
+            })?;
+        }
         at_least_one("test modes", numbers.len())?;
         job.once(numbers.iter(), "test.modes: mode")?;
         let held = &job.test.hold_out;
         job.once(held.iter(), "test.hold_out: mode")?;
-        let unknown = held.iter().find(|mode| !numbers.contains(mode));
-        job.refuse_if(unknown, |mode| {
-            format!("test.hold_out: mode {mode} is none of the test modes that are compared")
-        })?;
-        let is_none_left = (held.len() == numbers.len()).then_some(());
-        job.refuse_if(is_none_left, |()| {
-            "test.hold_out: a mode at least must be left to fit".into()
+        for mode in held {
+            ensure(numbers.contains(mode), || {
+                refused(format!(
+                    "hold_out: mode {mode} is none of the test modes that are compared"
+                ))
+            })?;
+        }
+        ensure(held.len() != numbers.len(), || {
+            refused("hold_out: a mode at least must be left to fit".into())
         })?;
         let parameters = source.whole.parameters().iter();
         job.once(parameters.map(|parameter| &parameter.name), "parameter")?;
@@ -97,9 +102,11 @@ impl LoadedJob {
             ("shape_weights", &job.compare.shape_weights),
         ];
         for (what, list) in lists {
-            let other = list.as_ref().map(Vec::len).filter(|count| *count != named);
-            job.refuse_if(other, |count| {
-                format!("compare.{what}: {count} given for {named} test modes")
+            let count = list.as_ref().map_or(named, Vec::len);
+            ensure(count == named, || {
+                job.refused(format!(
+                    "compare.{what}: {count} given for {named} test modes"
+                ))
             })?;
         }
         let alone = lone_frequencies(&job, &data, &numbers)?;
@@ -214,25 +221,19 @@ impl LoadedJob {
     ///
     /// # Errors
     /// Those of [`rewrite`] and of [`WholeModel::at`](crate::sparse::WholeModel::at).
-    pub fn corrected_model(
-        &self,
-        factors: &[f64],
-    ) -> Result<Vec<(String, Vec<u8>)>, FileError> {
+    pub fn corrected_model(&self, factors: &[f64]) -> Result<Vec<(String, Vec<u8>)>, FileError> {
         let ModelSource {
             all, labels, dmig, ..
         } = &*self.source;
         let Some((bytes, _)) = &self.source.deck else {
             let (stiffness, mass) = all.at(factors)?;
             let both = [("stiffness", stiffness), ("mass", mass)].into_iter();
-            let written = both.zip(dmig).map(|((file, matrix), name)| match name {
-                Some(name) => {
-                    let text = write_dmig(name, labels, &matrix)?;
-                    Ok((format!("{file}.pch"), text.into_bytes()))
-                }
-                None => {
-                    let text = write_matrix_market(&matrix);
-                    Ok((format!("{file}.mtx"), text.into_bytes()))
-                }
+            let written = both.zip(dmig).map(|((file, matrix), name)| {
+                let (end, text) = match name {
+                    Some(name) => ("pch", write_dmig(name, labels, &matrix)?),
+                    None => ("mtx", write_matrix_market(&matrix)),
+                };
+                Ok((format!("{file}.{end}"), text.into_bytes()))
             });
             return written.collect();
         };
@@ -271,9 +272,8 @@ impl LoadedJob {
 
     /// Refuses a job without parameters, which can be looked at but not correlated.
     pub(super) fn require_parameters(&self) -> Result<(), FileError> {
-        let none = self.source.whole.parameters().is_empty().then_some(());
-        self.job.refuse_if(none, |()| {
-            "a job needs at least one [[parameter]]".to_owned()
+        ensure(!self.source.whole.parameters().is_empty(), || {
+            self.job.refused("a job needs at least one [[parameter]]")
         })
     }
 
@@ -349,19 +349,20 @@ fn lone_frequencies(
         .filter(|mode| job.selects(mode + 1))
         .collect();
     let named = job.test.partners.as_deref();
-    let other = named
-        .map(<[usize]>::len)
-        .filter(|&count| count != numbers.len());
-    job.refuse_if(other, |count| {
-        let all = numbers.len();
-        format!("test.partners: {count} given for {all} test modes")
+    let (all, count) = (numbers.len(), named.map_or(numbers.len(), <[usize]>::len));
+    ensure(count == all, || {
+        job.refused(format!("test.partners: {count} given for {all} test modes"))
     })?;
     let pairs = || numbers.iter().zip(named.into_iter().flatten());
-    let wrong = pairs().find(|&(mode, &partner)| alone.contains(&(mode - 1)) != (partner > 0));
-    job.refuse_if(wrong, |(mode, partner)| match partner {
-        0 => format!("test.partners: test mode {mode} has a frequency alone; name its mode of the model, from 1"),
-        _ => format!("test.partners: test mode {mode} is paired by its shape; 0 stands for it"),
-    })?;
+    for (mode, &partner) in pairs() {
+        ensure(alone.contains(&(mode - 1)) == (partner > 0), || {
+            let what = match partner {
+                0 => "has a frequency alone; name its mode of the model, from 1",
+                _ => "is paired by its shape; 0 stands for it",
+            };
+            job.refused(format!("test.partners: test mode {mode} {what}"))
+        })?;
+    }
     job.once(
         pairs()
             .map(|(_, partner)| partner)

@@ -4,7 +4,7 @@ use super::bodies::explained;
 use super::model::{GridLayout, ModelSource, prior, range};
 use super::{Job, Scales};
 use crate::files::deck::number::{LARGEST, real};
-use crate::files::error::{FileError, is_not};
+use crate::files::error::{FileError, ensure, is_not};
 use crate::files::matrices::{self, Digits, Label, LabeledMatrix};
 use crate::files::test_data::{self, cells, row_name, separator};
 use crate::files::text::decoded;
@@ -39,22 +39,23 @@ pub(super) fn from_matrices(
         (None, None) => (Vec::new(), BTreeMap::new(), 0.0),
     };
     let is_named = !labels.is_empty() || job.model.rows.is_some();
-    let other = Some(labels.len()).filter(|rows| is_named && *rows != count);
-    job.refuse_if(other, |rows| {
-        format!("model.rows has {rows} rows, but the stiffness {count}")
+    let rows = labels.len();
+    ensure(!is_named || rows == count, || {
+        job.refused(format!(
+            "model.rows has {rows} rows, but the stiffness {count}"
+        ))
     })?;
-    let other = own.filter(|own| *own != labels);
-    job.refuse_if(other, |_| {
-        "model.rows is not in the order of the stiffness, which names its rows".to_owned()
+    ensure(own.is_none_or(|own| own == labels), || {
+        job.refused("model.rows is not in the order of the stiffness, which names its rows")
     })?;
     let mut row_of = BTreeMap::new();
     for (row, label) in labels.iter().enumerate() {
-        job.refuse_if(row_of.insert(*label, row), |first| {
-            format!(
-                "rows {} and {} of the matrices have the same grid and direction",
-                first + 1,
-                row + 1
-            )
+        let first = row_of.insert(*label, row).map_or(row, |first| first);
+        ensure(first == row, || {
+            let (first, row) = (first + 1, row + 1);
+            job.refused(format!(
+                "rows {first} and {row} of the matrices have the same grid and direction"
+            ))
         })?;
     }
     let LabeledMatrix {
@@ -222,9 +223,10 @@ fn part_of(
     (first, second): (&SparseMatrix, &SparseMatrix),
     at: f64,
 ) -> Result<SparseMatrix, FileError> {
-    let is_none = (at == 1.0 || !(at > 0.0 && at.is_finite())).then_some(at);
-    job.refuse_if(is_none, |at| {
-        format!("parameter \"{name}\": at = {at} must be positive and another factor than one")
+    ensure(at != 1.0 && at > 0.0 && at.is_finite(), || {
+        job.refused(format!(
+            "parameter \"{name}\": at = {at} must be positive and another factor than one"
+        ))
     })?;
     let mut both: BTreeMap<(usize, usize), [f64; 2]> = BTreeMap::new();
     for (of, matrix) in [first, second].into_iter().enumerate() {
@@ -240,11 +242,11 @@ fn part_of(
         is_told.then_some((row, column, (two - one) / (at - 1.0)))
     };
     let entries: Vec<_> = both.iter().filter_map(of_place).collect();
-    job.refuse_if(entries.is_empty().then_some(at), |at| {
-        format!(
+    ensure(!entries.is_empty(), || {
+        job.refused(format!(
             "parameter \"{name}\": the digits of the files do not tell the matrix at {at} from the model's; write more digits, or take \
              another factor"
-        )
+        ))
     })?;
     let part = SparseMatrix::new("part of a parameter", first.rows(), first.rows(), entries)?;
     Ok(part.with_half_unit(HalfUnit::of_each(largest)))
@@ -292,25 +294,29 @@ fn matrix(
             format!("a number is beyond {LARGEST:e}, and its square is none; look at its exponent");
         return Err(FileError::line(&file.display().to_string(), line, reason));
     }
-    let others = (found.columns != found.rows).then_some(&text);
-    job.refuse_if(others, |text| {
-        format!("{text}: rows and columns have different names")
+    ensure(found.columns == found.rows, || {
+        job.refused(format!("{text}: rows and columns have different names"))
     })?;
-    let shape = [found.matrix.rows(), found.matrix.columns()];
-    let wanted = count.filter(|_| found.rows.is_none()).unwrap_or(shape[0]);
-    let other = (shape != [wanted; 2]).then_some(shape);
-    job.refuse_if(other, |[rows, columns]| {
-        format!("{text} ({entry}) is {rows} x {columns}; it must be {wanted} x {wanted}")
+    let [rows, columns] = [found.matrix.rows(), found.matrix.columns()];
+    let wanted = count.filter(|_| found.rows.is_none()).unwrap_or(rows);
+    ensure([rows, columns] == [wanted; 2], || {
+        job.refused(format!(
+            "{text} ({entry}) is {rows} x {columns}; it must be {wanted} x {wanted}"
+        ))
     })?;
     // Labels ascend, so that two of one degree of freedom are neighbors.
     let labels = found.rows.as_deref().unwrap_or_default();
-    let is_one = |pair: &&[Label]| degree_of_freedom(&pair[0]) == degree_of_freedom(&pair[1]);
-    job.refuse_if(labels.windows(2).find(is_one), |pair| {
-        format!(
-            "{text}: components 0 and 1 of grid {} are one degree of freedom, and the matrix has both",
-            pair[0].grid
-        )
-    })?;
+    for pair in labels.windows(2) {
+        ensure(
+            degree_of_freedom(&pair[0]) != degree_of_freedom(&pair[1]),
+            || {
+                job.refused(format!(
+                "{text}: components 0 and 1 of grid {} are one degree of freedom, and the matrix has both",
+                pair[0].grid
+            ))
+            },
+        )?;
+    }
     Ok(found)
 }
 
@@ -325,13 +331,14 @@ fn on_rows(
     let (Some(labels), matrix) = (&found.rows, &found.matrix) else {
         return Ok(found);
     };
-    let stranger = labels
-        .iter()
-        .find(|label| !row_of.contains_key(&degree_of_freedom(label)));
-    job.refuse_if(stranger, |Label { grid, component }| {
-        let file = file.display();
-        format!("{file}: the stiffness has no row of grid {grid}, component {component}")
-    })?;
+    for label in labels {
+        ensure(row_of.contains_key(&degree_of_freedom(label)), || {
+            let (file, Label { grid, component }) = (file.display(), label);
+            job.refused(format!(
+                "{file}: the stiffness has no row of grid {grid}, component {component}"
+            ))
+        })?;
+    }
     let place = |row: usize| row_of[&degree_of_freedom(&labels[row])];
     let entries = matrix
         .entries()

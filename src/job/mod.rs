@@ -47,7 +47,7 @@ pub use prepared::{LeftOut, PreparedJob};
 pub use sensors::PlacedSensor;
 
 use crate::files::disk::file_of;
-use crate::files::error::{FileError, is_not};
+use crate::files::error::{FileError, ensure, is_not};
 use crate::files::read_bytes;
 use crate::files::text::decoded;
 use crate::method::outer_loop::Settings;
@@ -362,15 +362,6 @@ impl Job {
         FileError::refused(self.path.display(), reason)
     }
 
-    /// Refuses the job if anything is given, for the reason that it makes.
-    fn refuse_if<T>(
-        &self,
-        given: Option<T>,
-        reason: impl FnOnce(T) -> String,
-    ) -> Result<(), FileError> {
-        given.map_or(Ok(()), |given| Err(self.refused(reason(given))))
-    }
-
     /// Refuses a second entry of the same name.
     fn once(
         &self,
@@ -378,8 +369,11 @@ impl Job {
         what: &str,
     ) -> Result<(), FileError> {
         let mut seen = BTreeSet::new();
-        let again = all.find(|one| !seen.insert(*one));
-        self.refuse_if(again, |again| format!("{what} {again} is named twice"))
+        all.try_for_each(|one| {
+            ensure(seen.insert(one), || {
+                self.refused(format!("{what} {one} is named twice"))
+            })
+        })
     }
 
     /// The numbers that a list names.

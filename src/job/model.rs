@@ -2,7 +2,7 @@
 
 use super::{Job, ParameterRule, Scales};
 use crate::files::deck::{self, Deck, Membership};
-use crate::files::error::FileError;
+use crate::files::error::{FileError, ensure};
 use crate::files::matrices::Label;
 use crate::files::test_data::DIRECTIONS;
 use crate::method::appendix_a::element_matrices;
@@ -39,7 +39,7 @@ pub struct Members {
 pub struct ModelSource {
     /// Matrices of the model.
     pub whole: WholeModel,
-    /// The same with the parts that no sensor sees.
+    /// Matrices of all of it, parts that no sensor sees among them.
     pub all: WholeModel,
     /// Labels of the rows of a model of matrices.
     pub labels: Vec<Label>,
@@ -179,9 +179,11 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
         (Vec::new(), Vec::new(), BTreeMap::new(), Vec::new());
     for rule in &job.parameters {
         let files = [&rule.matrix, &rule.stiffness, &rule.mass];
-        job.refuse_if(files.into_iter().flatten().next(), |_| {
+        ensure(files.into_iter().all(Option::is_none), || {
             let name = &rule.name;
-            format!("parameter \"{name}\": in a deck, name elements or masses instead of a matrix")
+            job.refused(format!(
+                "parameter \"{name}\": in a deck, name elements or masses instead of a matrix"
+            ))
         })?;
         for ElementGroup {
             name,
@@ -189,10 +191,12 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
             masses,
         } in groups(job, rule, &deck)?
         {
-            let unknown = labels.iter().find(|label| !row_of.contains_key(label));
-            job.refuse_if(unknown, |label| {
-                format!("parameter \"{name}\": the deck has no element {label}")
-            })?;
+            let refused = |what| job.refused(format!("parameter \"{name}\": {what}"));
+            for label in &labels {
+                ensure(row_of.contains_key(label), || {
+                    refused(format!("the deck has no element {label}"))
+                })?;
+            }
             for &element in &labels {
                 if let Some(first) =
                     owner.insert((rule.scales == Scales::Mass, element), name.clone())
@@ -205,9 +209,10 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
             let rows: Vec<usize> = labels.iter().map(|label| row_of[label]).collect();
             let share = match rule.scales {
                 Scales::Stiffness => {
-                    job.refuse_if(masses.first(), |label| {
-                        format!("parameter \"{name}\": point mass {label} needs scales = \"mass\"")
-                    })?;
+                    if let Some(label) = masses.first() {
+                        let reason = format!("point mass {label} needs scales = \"mass\"");
+                        return Err(refused(reason));
+                    }
                     let own = rows.iter().map(|&row| sized(row));
                     WholeShare::Stiffness(stiffness_of(count, own)?)
                 }
@@ -217,12 +222,11 @@ pub(super) fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError
                         lumped_masses(&structure, element, corners)
                     });
                     let mut entries: Vec<_> = lumped.map(|(row, own)| (row, row, own)).collect();
-                    let is_known =
-                        |label: &usize| bulk.masses.iter().any(|point| point.label == *label);
-                    let unknown = masses.iter().find(|label| !is_known(label));
-                    job.refuse_if(unknown, |label| {
-                        format!("parameter \"{name}\": the deck has no point mass {label}")
-                    })?;
+                    for label in &masses {
+                        ensure(bulk.masses.iter().any(|own| own.label == *label), || {
+                            refused(format!("the deck has no point mass {label}"))
+                        })?;
+                    }
                     for point in bulk
                         .masses
                         .iter()
@@ -315,12 +319,15 @@ fn groups(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Vec<ElementGro
     let material = materials
         .iter()
         .find(|label| members().all(|of| of.material != **label));
-    job.refuse_if(property.or(material), |label| {
-        format!("parameter \"{name}\": no element of the deck has property or material {label}")
-    })?;
-    let none = (elements.is_empty() && masses.is_empty()).then_some(name);
-    job.refuse_if(none, |name| {
-        format!("parameter \"{name}\" names no elements and no masses")
+    if let Some(label) = property.or(material) {
+        return Err(job.refused(format!(
+            "parameter \"{name}\": no element of the deck has property or material {label}"
+        )));
+    }
+    ensure(elements.len() + masses.len() > 0, || {
+        job.refused(format!(
+            "parameter \"{name}\" names no elements and no masses"
+        ))
     })?;
     if !each {
         let [elements, masses] = [elements, masses].map(|labels| labels.into_iter().collect());
@@ -374,10 +381,14 @@ pub(super) fn range(
     let Some(of_sizes) = of_sizes else {
         return Ok(own);
     };
-    let other = (sizes.is_empty() || rule.scales == Scales::Mass).then_some(name);
-    job.refuse_if(other, |name| {
-        format!("parameter \"{name}\": bounds on sizes are for the stiffness of a deck's elements")
-    })?;
+    ensure(
+        !sizes.is_empty() && rule.scales == Scales::Stiffness,
+        || {
+            job.refused(format!(
+                "parameter \"{name}\": bounds on sizes are for the stiffness of a deck's elements"
+            ))
+        },
+    )?;
     let (lower, upper) = own.map_or((0.0, f64::INFINITY), |own| (own.lower, own.upper));
     let lower = sizes
         .iter()
@@ -396,11 +407,11 @@ pub(super) fn range(
 pub(super) fn prior(job: &Job, rule: &ParameterRule) -> Result<f64, FileError> {
     let given = rule.prior_deviation.or(job.compare.prior_deviation);
     let prior = given.unwrap_or(PRIOR_DEVIATION);
-    let is_positive = prior > 0.0 && prior.is_finite();
-    let wrong = (!is_positive).then_some(prior);
-    job.refuse_if(wrong, |prior| {
+    ensure(prior > 0.0 && prior.is_finite(), || {
         let name = &rule.name;
-        format!("parameter \"{name}\": prior_deviation is {prior}; it must be positive and finite")
+        job.refused(format!(
+            "parameter \"{name}\": prior_deviation is {prior}; it must be positive and finite"
+        ))
     })?;
     Ok(prior)
 }

@@ -5,7 +5,7 @@ use super::concern::{Check, Concern, Grade};
 use super::expansion::mass_by_modes;
 use super::likelihood::{decided, pairs};
 use super::{LoadedJob, Method};
-use crate::files::error::FileError;
+use crate::files::error::{FileError, ensure};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::sparse::{BasisSize, Deflections, FINITE, ModeWeight, Place, SensorModel};
@@ -93,21 +93,20 @@ impl PreparedJob {
     /// Analyses the first model, and pairs the test modes with its modes.
     pub(super) fn new(loaded: LoadedJob) -> Result<Self, FileError> {
         let job = &loaded.job;
-        let several = job
-            .compare
-            .starts
-            .filter(|&starts| starts > 1 && job.compare.method == Method::Paper);
-        job.refuse_if(several, |starts| {
-            format!("compare.starts is {starts}, but method \"paper\" has one start")
-        })?;
-        let lone = loaded.alone().first();
-        let of_paper = lone.filter(|_| job.compare.method == Method::Paper);
-        job.refuse_if(of_paper, |(mode, _)| {
-            format!(
-                "test mode {} has a frequency alone, and compare.method \"paper\" compares shapes; \"gauss_newton\" needs none",
-                mode + 1
-            )
-        })?;
+        if job.compare.method == Method::Paper {
+            let starts = job.compare.starts.unwrap_or(1);
+            ensure(starts <= 1, || {
+                job.refused(format!(
+                    "compare.starts is {starts}, but method \"paper\" has one start"
+                ))
+            })?;
+            if let Some((mode, _)) = loaded.alone().first() {
+                return Err(job.refused(format!(
+                    "test mode {} has a frequency alone, and compare.method \"paper\" compares shapes; \"gauss_newton\" needs none",
+                    mode + 1
+                )));
+            }
+        }
         let (analysis_modes, first) = first_analysis(&loaded)?;
         let exact = first.modes(analysis_modes)?;
         let partners = loaded.alone().iter().map(|(_, lone)| lone.partner);
@@ -173,16 +172,16 @@ impl PreparedJob {
             }
         };
         self.unpaired = left.into_iter().map(left_out).collect();
-        let twice = self.alone().iter().find_map(|(mode, lone)| {
-            let other = partners.iter().position(|own| *own == Some(lone.partner))?;
-            Some((mode + 1, self.modes[other] + 1, lone.partner + 1))
-        });
-        self.loaded.job.refuse_if(twice, |(mode, other, partner)| {
-            format!(
-                "test.partners: mode {partner} of the model is the partner of test mode {mode}, which has a frequency alone, and by its \
-                 shape of test mode {other}"
-            )
-        })?;
+        for (mode, lone) in self.alone() {
+            let other = partners.iter().position(|own| *own == Some(lone.partner));
+            if let Some(other) = other {
+                let (mode, other, partner) = (mode + 1, self.modes[other] + 1, lone.partner + 1);
+                return Err(self.loaded.job.refused(format!(
+                    "test.partners: mode {partner} of the model is the partner of test mode {mode}, which has a frequency alone, and by \
+                     its shape of test mode {other}"
+                )));
+            }
+        }
         // Without any pair all stay, for the pre-flight to name the mistake.
         if !kept.is_empty() {
             self.test = self.test.select(&kept);
@@ -342,13 +341,13 @@ impl PreparedJob {
     /// # Errors
     /// [`FileError::Refused`].
     pub(super) fn check_paired(&self) -> Result<(), FileError> {
-        let best = self.unpaired.iter().map(|left| left.assurance);
-        let best = best.reduce(f64::max).filter(|_| self.is_without_pairs());
-        self.loaded.job.refuse_if(best, |best| {
-            format!(
+        ensure(!self.is_without_pairs(), || {
+            let best = self.unpaired.iter().map(|left| left.assurance);
+            let best = best.fold(0.0, f64::max);
+            self.loaded.job.refused(format!(
                 "no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}; \
                  corfem check looks for the mistake"
-            )
+            ))
         })
     }
 
@@ -540,11 +539,11 @@ fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<Place>), FileError> 
     let most = loaded.source.whole.dof_count();
     let modes = asked.unwrap_or_else(|| loaded.usual_modes().min(most));
     let partners = loaded.alone().iter().map(|(_, lone)| lone.partner + 1);
-    let beyond = partners.max().filter(|&highest| highest > modes);
-    loaded.job.refuse_if(beyond, |highest| {
-        format!(
+    let highest = partners.max().unwrap_or(0);
+    ensure(highest <= modes, || {
+        loaded.job.refused(format!(
             "test.partners: mode {highest} of the model is not among the {modes} taken; see compare.analysis_modes"
-        )
+        ))
     })?;
     let (modes, first) = match loaded.analyzed(modes) {
         Err(Error::Count {

@@ -2,7 +2,7 @@
 
 use super::Job;
 use super::prepared::FLOOR;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, ensure};
 use crate::files::test_data::{self, Sensor, TestData};
 use crate::method::linear_algebra::symmetric_eigen;
 use nalgebra::{DMatrix, DVector};
@@ -49,10 +49,12 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
     let (modes, sensors) = (first.frequencies_hz.len(), first.sensors.len());
     let mut rows = Vec::new();
     for (test, file) in tests.iter().zip(repeats) {
-        job.refuse_if(test.rigid.first(), |mode| {
+        if let Some(mode) = test.rigid.first() {
             let (file, mode) = (file.display(), mode + 1);
-            format!("test.repeats: mode {mode} of {file} has a frequency of 0 Hz; leave rigid-body modes out of repeated tests")
-        })?;
+            return Err(job.refused(format!(
+                "test.repeats: mode {mode} of {file} has a frequency of 0 Hz; leave rigid-body modes out of repeated tests"
+            )));
+        }
         let place = |wanted| {
             let known = |sensor| key(sensor) == key(wanted);
             test.sensors.iter().position(known)
@@ -96,15 +98,15 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
         let (_, vectors) = symmetric_eigen("closeness of repeats", &shapes.tr_mul(&shapes))?;
         let common = (&shapes * vectors.column(tests.len() - 1)).normalize();
         let along = shapes.tr_mul(&common);
-        let unlike = (0..tests.len()).find(|&test| along[test].powi(2) < FLOOR);
-        job.refuse_if(unlike, |test| {
-            let file = repeats[test].display();
-            format!(
-                "test.repeats: mode {} of {file} is unlike the others: modal assurance {:.2} with their common shape",
-                mode + 1,
-                along[test].powi(2)
-            )
-        })?;
+        for (file, along) in repeats.iter().zip(&along) {
+            let assurance = along.powi(2);
+            ensure(assurance >= FLOOR, || {
+                let (file, mode) = (file.display(), mode + 1);
+                job.refused(format!(
+                    "test.repeats: mode {mode} of {file} is unlike the others: modal assurance {assurance:.2} with their common shape"
+                ))
+            })?;
+        }
         let sign = along[0].signum();
         for (mut shape, along) in shapes.column_iter_mut().zip(&along) {
             shape *= sign / along;
@@ -140,9 +142,10 @@ fn deviations(
 ) -> Result<DVector<f64>, FileError> {
     let (tests, count) = (apart.ncols(), apart.ncols() as f64);
     let variance = apart.norm_squared() / (free as f64 * (count - 1.0) - 2.0);
-    let untold = (!(variance > 0.0 && variance < f64::INFINITY)).then_some(());
-    job.refuse_if(untold, |()| {
-        format!("test.repeats: {tests} tests do not tell the deviations of {what}; name more, or one as test.file with deviations")
+    ensure(variance > 0.0 && variance < f64::INFINITY, || {
+        job.refused(format!(
+            "test.repeats: {tests} tests do not tell the deviations of {what}; name more, or one as test.file with deviations"
+        ))
     })?;
     Ok(DVector::from_element(
         apart.nrows(),

@@ -1,7 +1,7 @@
 //! Matches the sensors of the test with degrees of freedom of the model.
 
 use super::{Job, ModelSource, SensorRule};
-use crate::files::error::{FileError, is_not};
+use crate::files::error::{FileError, ensure, is_not};
 use crate::files::test_data::{DIRECTION, DIRECTIONS, Sensor, TestData, direction};
 use crate::method::structure::StructuralDof;
 use crate::sparse::SparseMatrix;
@@ -39,20 +39,19 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
         .leave_out
         .iter()
         .chain(rules.place.iter().map(|place| &place.sensor));
-    let unknown = named
-        .into_iter()
-        .find(|name| data.sensors.iter().all(|sensor| sensor.name != **name));
-    job.refuse_if(unknown, |name| {
-        format!("sensors: the test has no sensor {name}")
-    })?;
+    for name in named {
+        ensure(data.sensors.iter().any(|own| own.name == *name), || {
+            job.refused(format!("sensors: the test has no sensor {name}"))
+        })?;
+    }
     job.once(
         rules.place.iter().map(|place| &place.sensor),
         "sensors.place: sensor",
     )?;
-    let is_unnamed = source.motions.is_empty() && !data.sensors.is_empty();
-    job.refuse_if(is_unnamed.then_some(()), |()| {
-        "model.rows is missing: these matrices do not name their rows".to_owned()
-    })?;
+    ensure(
+        !source.motions.is_empty() || data.sensors.is_empty(),
+        || job.refused("model.rows is missing: these matrices do not name their rows"),
+    )?;
     let mut placed = Vec::new();
     for (row, sensor) in data
         .sensors
@@ -84,23 +83,28 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
             (None, SensorRule::Nearest) => (nearest(job, sensor, source)?, sensor.direction, 1.0),
         };
         let axis = measured.unwrap_or_else(|| Vector3::ith(direction % 3, 1.0));
-        let is_still = motion(source, grid, direction, axis).next().is_none();
-        job.refuse_if(is_still.then_some(grid), |grid| {
-            format!(
+        ensure(
+            motion(source, grid, direction, axis).next().is_some(),
+            || {
+                job.refused(format!(
                 "sensor {}: the model has no free degree of freedom at grid {grid}, direction {}",
                 sensor.name, DIRECTIONS[direction]
-            )
-        })?;
+            ))
+            },
+        )?;
         let place = source.geometry.places.get(&grid).copied();
         let distance = place.zip(sensor.place).map(|(a, b)| (a - b).norm());
         let most = rules.distance.unwrap_or(f64::INFINITY);
-        let far = distance.filter(|distance| !(0.0..=most).contains(distance));
-        job.refuse_if(far, |far| {
-            format!(
-                "sensor {}: grid {grid} is {far:.4} away; sensors.distance allows {most}",
-                sensor.name
-            )
-        })?;
+        ensure(
+            distance.is_none_or(|far| (0.0..=most).contains(&far)),
+            || {
+                let far = distance.unwrap_or_default();
+                job.refused(format!(
+                    "sensor {}: grid {grid} is {far:.4} away; sensors.distance allows {most}",
+                    sensor.name
+                ))
+            },
+        )?;
         placed.push(PlacedSensor {
             row,
             name: sensor.name.clone(),
@@ -124,16 +128,17 @@ pub(super) fn place(job: &Job, data: &TestData, source: &ModelSource) -> Result<
             grid: *grid,
             direction: *direction,
         };
-        let other = first.insert(dof, name);
-        job.refuse_if(other, |other| {
+        if let Some(other) = first.insert(dof, name) {
             let direction = DIRECTIONS[*direction];
-            format!("sensors {other} and {name} are both at grid {grid}, direction {direction}")
-        })?;
+            return Err(job.refused(format!(
+                "sensors {other} and {name} are both at grid {grid}, direction {direction}"
+            )));
+        }
     }
     let shaped = data.shaped();
-    let none = (placed.is_empty() && shaped.iter().any(|mode| job.selects(mode + 1))).then_some(());
-    job.refuse_if(none, |()| {
-        "no sensor of the test is on the model; see [sensors]".to_owned()
+    let needs_none = shaped.iter().all(|mode| !job.selects(mode + 1));
+    ensure(!placed.is_empty() || needs_none, || {
+        job.refused("no sensor of the test is on the model; see [sensors]")
     })?;
     let dof_count = source.whole.dof_count();
     if placed.is_empty() {
