@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// A coordinate system; a spherical one is known and not used.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Axes {
+pub struct Axes {
     /// 0 of a Cartesian one, 1 of a cylindrical one, 2 of a spherical one.
     pub kind: usize,
     pub origin: Vector3<f64>,

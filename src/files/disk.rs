@@ -5,8 +5,9 @@ use std::path::Path;
 
 /// The folder of a file: a bare name has the present one.
 fn folder_of(path: &Path) -> &Path {
-    let named = path.parent().filter(|own| !own.as_os_str().is_empty());
-    named.unwrap_or(Path::new("."))
+    path.parent()
+        .filter(|own| !own.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
 }
 
 /// Writes and syncs a new file before it takes the place of the old one, if any. A link is followed, and stays one; one to nothing is
@@ -15,9 +16,10 @@ fn folder_of(path: &Path) -> &Path {
 /// # Errors
 /// The operating system's error; the old file is then as it was.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let path = &match path.is_symlink() {
-        true => path.canonicalize()?,
-        false => path.to_owned(),
+    let path = &if path.is_symlink() {
+        path.canonicalize()?
+    } else {
+        path.to_owned()
     };
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
@@ -31,9 +33,10 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// The file of a name, in which a # may choose one matrix of several.
 pub(crate) fn file_of(name: &Path) -> &Path {
-    let parts = name.to_str().and_then(|text| text.rsplit_once('#'));
-    let chosen = parts.filter(|_| !name.exists());
-    chosen.map_or(name, |(file, _)| Path::new(file))
+    name.to_str()
+        .and_then(|text| text.rsplit_once('#'))
+        .filter(|_| !name.exists())
+        .map_or(name, |(file, _)| Path::new(file))
 }
 
 /// Refuses a place where no file can be made, before there is anything to write.

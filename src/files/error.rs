@@ -184,8 +184,7 @@ fn of_cards(file: &str, cards: &[Unread]) -> String {
             "no part in the model, so left out: ",
             String::new(),
         ),
-    ];
-    let said = said.into_iter().filter_map(|(reason, before, behind)| {
+    ].into_iter().filter_map(|(reason, before, behind)| {
         let places: Vec<String> = of(reason).map(Unread::place).collect();
         (!places.is_empty()).then(|| format!("{before}{}{behind}", places.join(", ")))
     });

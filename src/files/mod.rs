@@ -25,9 +25,10 @@ pub const MOST_BYTES: u64 = 1 << 31;
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let found = path.metadata()?;
     if !found.is_file() {
-        let reason = match found.is_dir() {
-            true => "it is a folder; name a file in it",
-            false => "it is not a regular file; copy what it gives into one",
+        let reason = if found.is_dir() {
+            "it is a folder; name a file in it"
+        } else {
+            "it is not a regular file; copy what it gives into one"
         };
         return Err(Error::new(ErrorKind::InvalidInput, reason));
     }
@@ -76,9 +77,10 @@ pub(crate) fn inert(text: &str) -> String {
 fn escape(text: &str, is_shown: impl Fn(char) -> bool) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
-        match is_shown(c) {
-            true => escaped.extend(c.escape_default()),
-            false => escaped.push(c),
+        if is_shown(c) {
+            escaped.extend(c.escape_default())
+        } else {
+            escaped.push(c)
         }
     }
     escaped

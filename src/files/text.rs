@@ -10,9 +10,10 @@ const MARK: &[u8] = "\u{feff}".as_bytes();
 /// alone ends, as in old files, end by a line feed.
 pub(crate) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     let text = in_characters(bytes);
-    match text.contains('\n') {
-        true => text,
-        false => text.replace('\r', "\n").into(),
+    if text.contains('\n') {
+        text
+    } else {
+        text.replace('\r', "\n").into()
     }
 }
 
@@ -21,8 +22,7 @@ fn in_characters(bytes: &[u8]) -> Cow<'_, str> {
         let units = bytes[2..]
             .chunks_exact(2)
             .map(|two| order([two[0], two[1]]));
-        let characters = char::decode_utf16(units);
-        let text = characters.map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER));
+        let text = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER));
         Cow::from(text.collect::<String>())
     };
     match bytes {
@@ -42,9 +42,10 @@ fn in_characters(bytes: &[u8]) -> Cow<'_, str> {
 
 /// A text in the encoding and with the ends of lines of a file from which it was [`decoded`].
 pub(crate) fn encoded(text: String, file: &[u8]) -> Vec<u8> {
-    let text = match file.contains(&b'\n') {
-        true => text,
-        false => text.replace('\n', "\r"),
+    let text = if file.contains(&b'\n') {
+        text
+    } else {
+        text.replace('\n', "\r")
     };
     let mark = if file.starts_with(MARK) { MARK } else { b"" };
     // Text that is not in UTF-8 was read as Latin-1, which has no character above 255.

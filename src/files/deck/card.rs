@@ -1,18 +1,18 @@
 //! One bulk data card as it is read: a name and its fields, with where they came from.
 
 use super::number::parse_real;
-use crate::files::error::{FileError, is_not};
+use crate::files::error::{FileError, ensure, is_not};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Data fields of a line in the small format, numbered 2 to 9; field 1 is the name, field 10 the continuation.
-pub(super) const FIELDS_PER_LINE: usize = 8;
+pub const FIELDS_PER_LINE: usize = 8;
 /// Largest number of a grid, an element and so on.
-pub(super) const LARGEST_LABEL: usize = 99_999_999;
+pub const LARGEST_LABEL: usize = 99_999_999;
 
 /// A field as it was read: its text without blanks at either end, and its line, from one.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Field {
+pub struct Field {
     pub text: String,
     pub line: usize,
 }
@@ -28,7 +28,7 @@ impl Field {
 /// A card as it was read, its continuations joined to it. Where a function refuses what a field says, its error is a
 /// [`FileError::DeckField`] about that field.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Card {
+pub struct Card {
     pub file: Arc<str>,
     /// The line of its name, from one.
     pub line: usize,
@@ -40,14 +40,14 @@ pub(crate) struct Card {
 
 /// The value read from a card, and the field where its entry begins: 2, or 6 for the second of two entries on a card.
 #[derive(Debug)]
-pub(crate) struct Kept<T> {
+pub struct Kept<T> {
     pub value: T,
     pub card: Card,
     pub start: usize,
 }
 
 /// The values of the cards of one kind, by number.
-pub(crate) type Numbered<T> = BTreeMap<usize, Kept<T>>;
+pub type Numbered<T> = BTreeMap<usize, Kept<T>>;
 
 impl Card {
     /// A field by its NASTRAN number: 2 to 9 on the first line, 12 to 19 on the first continuation and so on.
@@ -98,11 +98,7 @@ impl Card {
 
     /// Refuses a field unless its text is what belongs there.
     pub fn require(&self, is_met: bool, field: usize, what: &str) -> Result<(), FileError> {
-        if is_met {
-            Ok(())
-        } else {
-            Err(self.wrong(field, what))
-        }
+        ensure(is_met, || self.wrong(field, what))
     }
 
     /// A positive integer of at most eight digits.
@@ -114,7 +110,7 @@ impl Card {
     }
 
     /// A real number; `None` for a blank.
-    pub(crate) fn optional_real(&self, field: usize) -> Result<Option<f64>, FileError> {
+    pub fn optional_real(&self, field: usize) -> Result<Option<f64>, FileError> {
         match (self.text(field), parse_real(self.text(field))) {
             ("", _) => Ok(None),
             (_, Some(value)) => Ok(Some(value)),
@@ -138,14 +134,13 @@ impl Card {
     /// Requires a blank or zero where the crate has nothing for the field's `meaning`.
     pub fn absent(&self, field: usize, meaning: &str) -> Result<(), FileError> {
         let text = self.text(field);
-        let is_zero = text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0);
-        if is_zero {
-            return Ok(());
-        }
-        Err(self.error(
-            field,
-            format!("\"{text}\" must be blank or zero: corfem has no {meaning}"),
-        ))
+        ensure(
+            text.is_empty() || text.parse() == Ok(0) || parse_real(text) == Some(0.0),
+            || {
+                let reason = format!("\"{text}\" must be blank or zero: corfem has no {meaning}");
+                self.error(field, reason)
+            },
+        )
     }
 
     /// Directions x, y, z among components such as `123`; the rotations, 4 to 6, are allowed and left out.
@@ -161,8 +156,10 @@ impl Card {
 
     /// The one direction, 0 to 2, of a component 1, 2 or 3.
     pub fn direction(&self, field: usize) -> Result<usize, FileError> {
-        let direction = ["1", "2", "3"].iter().position(|c| *c == self.text(field));
-        direction.ok_or_else(|| self.wrong(field, "component 1, 2 or 3"))
+        ["1", "2", "3"]
+            .iter()
+            .position(|c| *c == self.text(field))
+            .ok_or_else(|| self.wrong(field, "component 1, 2 or 3"))
     }
 
     /// Adds an entry to others by the number in its first field, which no other card may have.
@@ -177,21 +174,16 @@ impl Card {
             card: self.clone(),
             start,
         };
-        let Some(first) = others.insert(self.label(start)?, kept) else {
-            return Ok(());
-        };
-        Err(self.error(
-            start,
-            format!(
-                "the card in line {} has the number {} already",
-                first.card.line,
-                self.text(start)
-            ),
-        ))
+        let first = others.insert(self.label(start)?, kept);
+        first.map_or(Ok(()), |first| {
+            let (line, number) = (first.card.line, self.text(start));
+            let reason = format!("the card in line {line} has the number {number} already");
+            Err(self.error(start, reason))
+        })
     }
 
     /// The entry that a field refers to by its number, which must exist; `card` is the name of the card it is on.
-    pub(crate) fn referred<'a, T>(
+    pub fn referred<'a, T>(
         &self,
         field: usize,
         all: &'a BTreeMap<usize, T>,

@@ -4,13 +4,13 @@ use super::card::Card;
 use super::coordinates::{Motions, OBLIQUE};
 use super::lines::Selected;
 use super::model::Tie;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, ensure};
 use crate::method::structure::{Grid, StructuralDof};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The constraints of a deck as cards, from [`Self::select`] on those of the selected sets alone.
 #[derive(Debug, Default)]
-pub(super) struct Constraints {
+pub struct Constraints {
     supports: Sets,
     equations: Sets,
 }
@@ -44,8 +44,9 @@ impl Sets {
         if chosen.is_empty() {
             sets.extend(selected);
         }
-        let left_out = self.cards.extract_if(.., |(set, _)| !sets.contains(set));
-        Ok(left_out
+        Ok(self
+            .cards
+            .extract_if(.., |(set, _)| !sets.contains(set))
             .chain(self.unions.drain(..))
             .map(|(_, card)| card)
             .collect())
@@ -117,49 +118,46 @@ impl Constraints {
         grids: &mut BTreeMap<usize, Grid>,
         motions: &Motions,
     ) -> Result<(), FileError> {
-        let add = |card: &Card, field: usize, grid: &mut Grid, directions: [bool; 3]| {
-            let turned = motions.held(grid.label, directions);
-            let turned = turned.ok_or_else(|| card.error(field, OBLIQUE))?;
-            grid.constrained = std::array::from_fn(|d| grid.constrained[d] || turned[d]);
-            Ok::<_, FileError>(())
-        };
         for (_, card) in &self.supports.cards {
+            // Fields of components and of the first grid of a run, and its ends.
+            let mut runs = Vec::new();
+            let mut fields = card.filled().into_iter().skip_while(|&f| f < 4).peekable();
             if card.name == "SPC" {
                 let is_double = card.filled().last().is_some_and(|&last| last > 5);
                 for &start in if is_double { &[3, 6][..] } else { &[3] } {
-                    let directions = card.directions(start + 1)?;
-                    card.require(
-                        !card.text(start + 1).is_empty(),
-                        start + 1,
-                        "a list of components 1 to 6",
-                    )?;
+                    let label = card.label(start)?;
                     card.optional_real(start + 2)?;
-                    let grid = grids.get_mut(&card.label(start)?);
-                    let none = || card.wrong(start, "the number of a GRID card");
-                    add(card, start + 1, grid.ok_or_else(none)?, directions)?;
+                    runs.push((start + 1, start, label, label));
                 }
-                continue;
+            } else {
+                card.require(fields.peek().is_some(), 4, "a grid")?;
+                while let Some(field) = fields.next() {
+                    let first = card.label(field)?;
+                    let mut last = first;
+                    if let Some(word) = fields.next_if(|&word| card.text(word) == "THRU") {
+                        // Fields 10 and 11 are no data.
+                        let after = if word % 10 == 9 { word + 3 } else { word + 1 };
+                        let end = fields
+                            .next()
+                            .ok_or_else(|| card.wrong(after, "a grid after THRU"))?;
+                        last = card.label(end)?;
+                        let what = format!("a grid number above {first}");
+                        card.require(last >= first, end, &what)?;
+                    }
+                    runs.push((3, field, first, last));
+                }
             }
-            let directions = card.directions(3)?;
-            card.require(!card.text(3).is_empty(), 3, "a list of components 1 to 6")?;
-            let mut fields = card.filled().into_iter().skip_while(|&f| f < 4).peekable();
-            card.require(fields.peek().is_some(), 4, "a grid")?;
-            while let Some(field) = fields.next() {
-                let first = card.label(field)?;
-                let mut last = first;
-                if let Some(word) = fields.next_if(|&word| card.text(word) == "THRU") {
-                    // Fields 10 and 11 are no data.
-                    let after = if word % 10 == 9 { word + 3 } else { word + 1 };
-                    let end = fields
-                        .next()
-                        .ok_or_else(|| card.wrong(after, "a grid after THRU"))?;
-                    last = card.label(end)?;
-                    card.require(last >= first, end, &format!("a grid number above {first}"))?;
-                }
+            for (components, field, first, last) in runs {
+                let directions = card.directions(components)?;
+                let is_met = !card.text(components).is_empty();
+                card.require(is_met, components, "a list of components 1 to 6")?;
                 let mut run = grids.range_mut(first..=last).peekable();
                 card.require(run.peek().is_some(), field, "the number of a GRID card")?;
                 for (_, grid) in run {
-                    add(card, 3, grid, directions)?;
+                    let held = motions
+                        .held(grid.label, directions)
+                        .ok_or_else(|| card.error(components, OBLIQUE))?;
+                    grid.constrained = std::array::from_fn(|d| grid.constrained[d] || held[d]);
                 }
             }
         }
@@ -185,23 +183,21 @@ impl Constraints {
                     (StructuralDof { grid, direction }, part * real, field)
                 }));
             }
-            let is_oblique = terms.get(1).is_some_and(|term| term.2 == term_field(0));
-            if is_oblique {
-                return Err(card.error(4, OBLIQUE));
-            }
+            ensure(
+                terms.get(1).is_none_or(|term| term.2 != term_field(0)),
+                || card.error(4, OBLIQUE),
+            )?;
             let mut terms = terms.into_iter();
             let (dependent, coefficient, _) =
                 terms.next().ok_or_else(|| card.wrong(3, "a grid"))?;
             card.require(coefficient != 0.0, 5, "a coefficient other than zero")?;
-            let is_constrained = grids
-                .get(&dependent.grid)
-                .is_some_and(|grid| grid.constrained[dependent.direction]);
-            if is_constrained {
-                return Err(card.error(
-                    3,
-                    "an SPC or SPC1 card constrains this degree of freedom; it cannot also depend on others",
-                ));
-            }
+            let grid = grids.get(&dependent.grid);
+            ensure(
+                grid.is_none_or(|grid| !grid.constrained[dependent.direction]),
+                || {
+                    card.error(3, "an SPC or SPC1 card constrains this degree of freedom; it cannot also depend on others")
+                },
+            )?;
             let (fields, terms) = terms.map(|(dof, part, field)| (field, (dof, part))).unzip();
             let tie = Tie {
                 dependent,
@@ -209,17 +205,14 @@ impl Constraints {
                 terms,
             };
             if let Some((.., first)) = ties.insert(dependent, (tie, fields, card)) {
-                return Err(card.error(
-                    3,
-                    format!("line {} ties this degree of freedom already", first.line),
-                ));
+                let reason = format!("line {} ties this degree of freedom already", first.line);
+                return Err(card.error(3, reason));
             }
         }
         for (tie, fields, card) in ties.values() {
             let is_tied = |(term, _): &(StructuralDof, f64)| ties.contains_key(term);
             if let Some(row) = tie.terms.iter().position(is_tied) {
-                let reason = "another MPC card makes this degree of freedom dependent; no equation may refer to it";
-                return Err(card.error(fields[row], reason));
+                return Err(card.error(fields[row], "another MPC card makes this degree of freedom dependent; no equation may refer to it"));
             }
         }
         Ok(ties.into_values().map(|(tie, ..)| tie).collect())

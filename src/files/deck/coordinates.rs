@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
 /// Reason against a single direction of a grid that lies along none of the basic axes.
-pub(super) const OBLIQUE: &str = "a direction that the coordinate system turns off the axes x, y and z: corfem has no oblique supports, masses \
+pub const OBLIQUE: &str = "a direction that the coordinate system turns off the axes x, y and z: corfem has no oblique supports, masses \
                                   and dependent degrees of freedom; let the program that the deck is for write matrices \
                                   (paper/matrices.md)";
 /// Requirement of a reference to a coordinate system, with the way on from other systems.
@@ -19,7 +19,7 @@ const ROUND_OFF: f64 = 1e-6;
 
 /// Unit vectors along the directions in which grids move, in columns; none of a grid that has no motion, as in a fluid.
 #[derive(Debug, Default)]
-pub(super) struct Motions(BTreeMap<usize, Matrix3<f64>>);
+pub struct Motions(BTreeMap<usize, Matrix3<f64>>);
 
 impl Motions {
     /// The basic direction along which one of a grid lies; none where it is oblique.
@@ -39,8 +39,11 @@ impl Motions {
         if (own[along].abs() - 1.0).abs() < ROUND_OFF {
             return vec![(along, own[along].signum())];
         }
-        let parts = own.iter().copied().enumerate();
-        parts.filter(|(_, part)| *part != 0.0).collect()
+        own.iter()
+            .copied()
+            .enumerate()
+            .filter(|(_, part)| *part != 0.0)
+            .collect()
     }
 
     /// The basic directions that are held where some of a grid's own are; none where these are oblique.
@@ -58,7 +61,7 @@ impl Motions {
 
 /// The grids at their basic places, with what their own cards hold, and the directions in which they move, by the cards of grids and
 /// of coordinate systems. GRDSET fills blanks.
-pub(super) fn grids(
+pub fn grids(
     cards: &Numbered<()>,
     systems: &Numbered<()>,
     default: Option<&Card>,
@@ -77,8 +80,9 @@ pub(super) fn grids(
                 let own = system.directions(position, ROUND_OFF);
                 motions.0.insert(label, own.unwrap_or(system.rotation));
                 let held = chosen(card, default, 8);
-                let own = motions.held(label, held.directions(8)?);
-                own.ok_or_else(|| held.error(8, OBLIQUE))?
+                motions
+                    .held(label, held.directions(8)?)
+                    .ok_or_else(|| held.error(8, OBLIQUE))?
             }
         };
         grids.insert(
@@ -119,8 +123,8 @@ fn system(
         )
     };
     let z = (along - origin).try_normalize(0.0).ok_or_else(degenerate)?;
-    let y = z.cross(&(across - origin));
-    let y = y
+    let y = z
+        .cross(&(across - origin))
         .try_normalize(ROUND_OFF * (across - origin).norm())
         .ok_or_else(degenerate)?;
     Ok(Axes {

@@ -10,7 +10,7 @@ use crate::method::structure::{Element, ElementKind, Grid, Material};
 use std::collections::BTreeMap;
 
 /// Connection card, property card and kind of the elements that have a property of their own.
-pub(super) const ELEMENT_CARDS: [(&str, &str, ElementKind); 4] = [
+pub const ELEMENT_CARDS: [(&str, &str, ElementKind); 4] = [
     ("CROD", "PROD", ElementKind::Rod),
     ("CSHEAR", "PSHEAR", ElementKind::ShearPanel),
     ("CQDMEM", "PQDMEM", ElementKind::Membrane),
@@ -20,11 +20,11 @@ pub(super) const ELEMENT_CARDS: [(&str, &str, ElementKind); 4] = [
 const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
 
 /// The property and the material that every element refers to, by the elements' numbers.
-pub(super) type Members = BTreeMap<usize, Membership>;
+pub type Members = BTreeMap<usize, Membership>;
 
 /// The cards of elements, properties and materials before they are joined to elements.
 #[derive(Debug, Default)]
-pub(super) struct ElementCards {
+pub struct ElementCards {
     /// The place of every element's kind in [`ELEMENT_CARDS`]; none for a CONROD.
     pub connections: Numbered<Option<usize>>,
     pub properties: [Numbered<()>; 4],
@@ -40,7 +40,7 @@ pub(super) struct ElementCards {
 
 /// The card that has an element's material, size and nonstructural mass: the fields of the last two, the material's before them, and
 /// what they say.
-pub(super) struct Holder<'a> {
+pub struct Holder<'a> {
     pub card: &'a Card,
     pub size_field: usize,
     pub size: f64,
@@ -51,7 +51,7 @@ pub(super) struct Holder<'a> {
 
 /// The cards that an element refers to: its property's number, none for a CONROD, and its material's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Membership {
+pub struct Membership {
     pub property: Option<usize>,
     pub material: usize,
 }
@@ -124,7 +124,7 @@ impl ElementCards {
     }
 
     /// The card with the size and the material of an element: its property's, which must exist, or its own.
-    pub(crate) fn holder<'a>(
+    pub fn holder<'a>(
         &'a self,
         connection: &'a Kept<Option<usize>>,
     ) -> Result<Holder<'a>, FileError> {
@@ -197,8 +197,9 @@ impl ElementCards {
                 size: holder.size,
                 material,
             });
-            let property = value.map(|_| card.label(connection.property_field()));
-            let property = property.transpose()?;
+            let property = value
+                .map(|_| card.label(connection.property_field()))
+                .transpose()?;
             members.insert(
                 label,
                 Membership {
@@ -216,8 +217,7 @@ impl<'a> Holder<'a> {
     fn new(card: &'a Card, size_field: usize) -> Result<Self, FileError> {
         let is_rod = card.name.ends_with("ROD");
         if is_rod && card.optional_real(size_field)? == Some(0.0) {
-            let reason = "a rod without area resists torsion alone, which corfem does not read; leave the rod out";
-            return Err(card.error(size_field, reason));
+            return Err(card.error(size_field, "a rod without area resists torsion alone, which corfem does not read; leave the rod out"));
         }
         let (size, mass_field) = (
             card.positive(size_field)?,

@@ -2,15 +2,15 @@
 
 use super::card::{Card, FIELDS_PER_LINE, Field};
 use super::number::{LARGE_FIELD, SMALL_FIELD, parse_real};
-use crate::files::error::FileError;
+use crate::files::error::{FileError, ensure};
 use std::sync::Arc;
 
 /// Data fields of a line in the large format.
-pub(super) const LARGE_FIELDS_PER_LINE: usize = 4;
+pub const LARGE_FIELDS_PER_LINE: usize = 4;
 /// Statements that read another file, in any section.
-pub(super) const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
-/// Characters that end the first word of such a statement, or of a parameter.
-const WORD_ENDS: [char; 5] = [' ', ',', '=', '\'', '"'];
+pub const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
+/// Characters between words.
+const WORD_ENDS: [char; 6] = [' ', '\t', ',', '=', '\'', '"'];
 /// Fault of a line that is no line of a card.
 const NO_CARD: &str = "is neither a card's name nor a continuation";
 /// Fault of a line that begins by `=`.
@@ -19,11 +19,11 @@ const REPLICA: &str = "repeats the card before it, and replication (=, ==, *(n))
 
 /// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with its line. The first subcase's selection
 /// counts, or else the one above all subcases.
-pub(super) type Selected = [Option<(usize, usize)>; 2];
+pub type Selected = [Option<(usize, usize)>; 2];
 
 /// One line of bulk data, cut into fields.
 #[derive(Default)]
-pub(super) struct Line {
+pub struct Line {
     /// Number of the line in the file, from one.
     number: usize,
     /// Field 1 in capitals: a name, or of a continuation its tag without `+` or `*`.
@@ -53,71 +53,61 @@ impl Line {
 /// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
 ///
 /// PARAM and INCLUDE statements in front of the bulk data belong to the model too and are among its lines.
-pub(super) fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
+pub fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
     let code = |line: &str| {
         line.split('$')
             .next()
             .unwrap_or_default()
             .to_ascii_uppercase()
     };
-    let lines = (1..)
+    let lines: Vec<(usize, String)> = (1..)
         .zip(text.lines().map(code))
-        .filter(|(_, line)| !line.trim().is_empty());
-    let lines: Vec<(usize, String)> = lines.collect();
-    let begins = |line: &str, of: &[&str]| {
-        let mut words = line
-            .split([' ', '\t', ',', '='])
-            .filter(|word| !word.is_empty());
-        words.next() == Some("BEGIN")
-            && words
-                .next()
-                .is_none_or(|word| of.is_empty() || of.contains(&word))
-    };
+        .filter(|(_, line)| !line.trim().is_empty())
+        .collect();
+    let begins = |line: &str| word(line, 0) == Some("BEGIN");
     // In front of bulk data, other words may follow BEGIN, as in instructions of matrix programs.
-    let begin = lines
-        .iter()
-        .position(|(_, line)| begins(line, &["BULK", "SUPER"]));
+    let is_bulk =
+        |line: &str| begins(line) && matches!(word(line, 1), None | Some("BULK" | "SUPER"));
+    let begin = lines.iter().position(|(_, line)| is_bulk(line));
     let mut behind = lines.iter().skip(begin.map_or(lines.len(), |row| row + 1));
-    if let Some((number, _)) = behind.find(|(_, line)| begins(line, &[])) {
-        let reason = "this is the second part of bulk data; corfem has no superelements";
-        return Err(FileError::line(file, *number, reason));
+    if let Some((number, _)) = behind.find(|(_, line)| begins(line)) {
+        return Err(FileError::line(
+            file,
+            *number,
+            "this is the second part of bulk data; corfem has no superelements",
+        ));
     }
     let (control, bulk) = lines.split_at(begin.map_or(0, |row| row + 1));
     let (mut levels, mut subcases) = ([Selected::default(); 2], 0);
     for (number, line) in control {
-        subcases += usize::from(statement(line, &["SUBCASE"]).is_some());
+        subcases += usize::from(word(line, 0) == Some("SUBCASE"));
         if let Some(level) = levels.get_mut(subcases) {
             select(file, *number, line, level)?;
         }
     }
     let selected = [0, 1].map(|row| levels[1][row].or(levels[0][row]));
-    let of_model = |(_, line): &&(usize, String)| {
-        statement(line, &["PARAM"])
-            .or(statement(line, &INCLUDES))
-            .is_some()
-    };
+    let is_of_model = |line: &str| word(line, 0) == Some("PARAM") || include(line).is_some();
     // Programs write a checksum or remarks behind the word.
-    let is_end =
-        |line: &str| line.split(WORD_ENDS).find(|word| !word.is_empty()) == Some("ENDDATA");
-    let bulk = bulk
-        .iter()
-        .take_while(|(_, line)| !is_end(&line.replace('\t', " ")));
+    let is_end = |line: &str| word(line, 0) == Some("ENDDATA");
+    let control = control.iter().filter(|(_, line)| is_of_model(line));
+    let bulk = bulk.iter().take_while(|(_, line)| !is_end(line));
     let bulk = control
-        .iter()
-        .filter(of_model)
         .chain(bulk)
         .map(|(number, line)| fields(file, *number, line.trim_end()));
     Ok((begin.map(|_| selected), bulk.collect()))
 }
 
-/// The one of these words with which a line begins.
-fn statement(line: &str, names: &[&'static str]) -> Option<&'static str> {
-    let begins = |name: &&&str| {
-        line.trim_start()
-            .strip_prefix(**name)
-            .is_some_and(|rest| rest.starts_with(WORD_ENDS))
-    };
-    names.iter().find(begins).copied()
+/// A word of a line, counted from zero.
+fn word(line: &str, place: usize) -> Option<&str> {
+    line.split(WORD_ENDS)
+        .filter(|word| !word.is_empty())
+        .nth(place)
+}
+
+/// The word that begins a line which names another file.
+fn include(line: &str) -> Option<&'static str> {
+    let first = word(line, 0);
+    INCLUDES.into_iter().find(|name| first == Some(name))
 }
 
 /// Notes the sets that `SPC = n` and `MPC = n` select.
@@ -127,155 +117,107 @@ fn select(file: &str, line: usize, text: &str, [spc, mpc]: &mut Selected) -> Res
         Some(("MPC", set)) => (mpc, set),
         _ => return Ok(()),
     };
-    match set.trim().parse() {
-        Ok(set) if slot.is_none_or(|(earlier, _)| earlier == set) => *slot = Some((set, line)),
-        _ => {
-            return Err(FileError::line(
-                file,
-                line,
-                format!(
-                    "\"{}\" must select one set of constraints by its number",
-                    text.trim()
-                ),
-            ));
-        }
-    }
-    Ok(())
+    let set = set.trim().parse().ok();
+    let set = set.filter(|set| slot.is_none_or(|(earlier, _)| earlier == *set));
+    *slot = set.map(|set| (set, line));
+    ensure(slot.is_some(), || {
+        let reason = "must select one set of constraints by its number";
+        FileError::line(file, line, format!("\"{}\" {reason}", text.trim()))
+    })
 }
 
-/// A line cut into parts.
-pub(super) struct Cut {
-    pub name: String,
-    /// Fields behind the name: in free format as many as there are, else all of a line and then the rest of it.
-    pub parts: Vec<String>,
-    /// Places among these of the data fields, of one line or more.
-    pub places: Vec<usize>,
-    pub is_free: bool,
-    /// Fields of a line, and their width.
-    pub count: usize,
-    pub width: usize,
+/// True of a text that begins as a card's name does.
+fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
 }
 
-/// Cuts a line. With a comma behind its first word it is in free format; otherwise an asterisk behind the name or in front of a continuation
-/// means fields of 16 characters, its absence fields of 8.
-pub(super) fn cut(text: &str) -> Cut {
-    let first = text.split_once(',').map(|(first, _)| first.trim());
+/// Cuts a line into field 1, the fields behind it, field 10 among them, and tells the width and the number of a line's fields and whether it
+/// is in free format, as with a comma behind its first word. Otherwise an asterisk behind the name or in front of a continuation means
+/// fields of 16 characters, its absence fields of 8.
+fn cut(text: &str) -> (String, Vec<String>, [usize; 2], bool) {
     // A continuation whose first eight columns are blank is in fixed format.
-    let is_indented = text.chars().take_while(|c| *c == ' ').count() >= SMALL_FIELD;
-    let is_word = |first: &str| {
-        let is_name = first.starts_with(|c: char| c.is_ascii_alphabetic());
-        !first.contains(char::is_whitespace) && (is_name || !is_indented)
-    };
-    let is_free = first.is_some_and(is_word);
+    let is_indented = text.starts_with(&" ".repeat(SMALL_FIELD));
+    let first = text.split(',').next().unwrap_or_default().trim();
+    let is_free = text.contains(',')
+        && !first.contains(char::is_whitespace)
+        && (is_name(first) || !is_indented);
     let columns = expand_tabs(text);
-    let slice = |from: usize, to: usize| columns.iter().take(to).skip(from).collect::<String>();
-    let mut parts = text.split(',').map(str::to_owned);
-    let name = if is_free {
-        parts.next().unwrap_or_default()
+    let slice = |from: usize, width: usize| columns.iter().skip(from).take(width).collect();
+    let mut cells: Vec<String> = text.split(',').map(str::to_owned).collect();
+    let name: String = if is_free {
+        cells.remove(0)
     } else {
         slice(0, SMALL_FIELD)
     };
-    let is_large = name.trim().ends_with('*') || name.trim().starts_with('*');
-    let (width, count) = if is_large {
-        (LARGE_FIELD, LARGE_FIELDS_PER_LINE)
+    let [width, count] = if name.trim().ends_with('*') || name.trim().starts_with('*') {
+        [LARGE_FIELD, LARGE_FIELDS_PER_LINE]
     } else {
-        (SMALL_FIELD, FIELDS_PER_LINE)
+        [SMALL_FIELD, FIELDS_PER_LINE]
     };
-    let start = |place: usize| SMALL_FIELD + width * place;
-    let fixed = (0..count)
-        .map(|place| slice(start(place), start(place + 1)))
-        .chain([slice(start(count), usize::MAX)]);
-    let parts: Vec<String> = if is_free {
-        parts.collect()
-    } else {
-        fixed.collect()
-    };
-    // A free line of more fields goes on as the next would, whose field 1 may stand behind field 10 as its tag, or at once.
-    let is_tag = |part: &String| part.trim().is_empty() || part.trim().starts_with(['+', '*']);
-    let is_tagged = parts.get(count).is_none_or(is_tag);
-    let places: Vec<usize> = match parts.len() > count + 1 {
-        true if is_tagged => (0..parts.len())
-            .filter(|place| place % (count + 1) < count)
-            .collect(),
-        true => (0..parts.len()).collect(),
-        false => (0..count).collect(),
-    };
-    Cut {
-        name,
-        parts,
-        places,
-        is_free,
-        count,
-        width,
+    if !is_free {
+        let starts = (0..count).map(|place| SMALL_FIELD + width * place);
+        cells = starts.map(|start| slice(start, width)).collect();
+        // Text behind column 80 does not count.
+        cells.push(slice(SMALL_FIELD + width * count, SMALL_FIELD));
     }
+    (name, cells, [width, count], is_free)
 }
 
 fn fields(file: &str, number: usize, text: &str) -> Line {
-    if let Some(name) = statement(text, &INCLUDES) {
+    if let Some(name) = include(text) {
         return Line {
             number,
             first: name.to_owned(),
             ..Line::default()
         };
     }
+    let (name, cells, [width, count], is_free) = cut(text);
+    let name = name.trim();
+    // A free line of more fields goes on as the next would, whose field 1 may stand behind field 10 as its tag, or at once.
+    let is_tag = |cell: &String| cell.trim().is_empty() || cell.trim().starts_with(['+', '*']);
+    let is_tagged = cells.len() <= count + 1 || is_tag(&cells[count]);
+    let most = if is_tagged { count } else { cells.len() };
+    let (mut data, mut tag) = (Vec::new(), String::new());
+    for cells in cells.chunks(most + 1) {
+        let (own, last) = cells.split_at(most.min(cells.len()));
+        data.extend(own.iter().map(|cell| Field {
+            text: cell.trim().to_owned(),
+            line: number,
+        }));
+        let whole = data.len().next_multiple_of(count);
+        data.resize(whole, Field::blank(number));
+        tag = last.concat().trim().to_owned();
+    }
     let wrong = |text: &str, what: &str| {
         let reason = format!("\"{}\" {what}", text.trim());
-        FileError::line(file, number, reason)
+        Some(FileError::line(file, number, reason))
     };
-    let Cut {
-        name,
-        mut parts,
-        places,
-        is_free,
-        count,
-        width,
-    } = cut(text);
-    if let (false, Some(tag)) = (is_free, parts.last_mut()) {
-        // Text behind column 80 does not count.
-        *tag = tag.chars().take(SMALL_FIELD).collect();
-    }
-    let first = name.trim();
-    let continues = !first.starts_with(|c: char| c.is_ascii_alphabetic());
     // What reads the card before a line that is none finds out whether it matters.
-    let mut fault = None;
-    let first = if !continues {
-        first.trim_end_matches('*')
-    } else if first.is_empty() || first.starts_with(['+', '*']) {
-        first.trim_start_matches(['+', '*'])
-    } else {
-        let is_replica = first.starts_with('=');
-        fault = Some(wrong(first, if is_replica { REPLICA } else { NO_CARD }));
-        ""
-    }
-    .to_owned();
-    let field = |place: &usize| Field {
-        text: parts.get(*place).map_or("", |part| part.trim()).to_owned(),
-        line: number,
+    let (first, fault) = match name.chars().next() {
+        Some('=') => ("", wrong(name, REPLICA)),
+        None | Some('+' | '*') => (name.trim_start_matches(['+', '*']), None),
+        _ if is_name(name) => (name.trim_end_matches('*'), None),
+        _ => ("", wrong(name, NO_CARD)),
     };
-    let mut data: Vec<Field> = places.iter().map(field).collect();
-    let whole = data.len().next_multiple_of(count);
-    data.resize(whole, Field::blank(number));
     // Real numbers of the free format may be longer than others.
     let is_long = |field: &&Field| {
         let is_number = is_free && parse_real(&field.text).is_some();
         field.text.chars().count() > width && !is_number
     };
-    if let Some(long) = data.iter().find(is_long) {
-        let what = "is longer than a field: 8 characters, or 16 with an asterisk";
-        fault.get_or_insert(wrong(&long.text, what));
-    }
-    let last = parts
-        .get(places.len().max(count))
-        .filter(|_| parts.len() > count);
-    let tag = last.map(|last| last.trim().to_owned()).unwrap_or_default();
+    let long = data.iter().find(is_long);
     Line {
         number,
-        first,
-        continues,
+        first: first.to_owned(),
+        continues: !is_name(name),
+        fault: fault.or_else(|| {
+            wrong(
+                &long?.text,
+                "is longer than a field: 8 characters, or 16 with an asterisk",
+            )
+        }),
         data,
         count,
         tag,
-        fault,
     }
 }
 
@@ -292,13 +234,15 @@ fn expand_tabs(text: &str) -> Vec<char> {
 }
 
 /// The bulk data cards of a text whatever they are, in the order of the file.
-pub(crate) fn cards(file: &str, text: &str) -> Result<Vec<Card>, FileError> {
-    let found = join(&file.into(), sections(file, text)?.1)?;
-    found.into_iter().map(Joined::sound).collect()
+pub fn cards(file: &str, text: &str) -> Result<Vec<Card>, FileError> {
+    join(&file.into(), sections(file, text)?.1)?
+        .into_iter()
+        .map(Joined::sound)
+        .collect()
 }
 
 /// A card, and what is wrong with its lines or their order.
-pub(super) struct Joined {
+pub struct Joined {
     pub card: Card,
     fault: Option<FileError>,
 }
@@ -312,7 +256,7 @@ impl Joined {
 
 /// Joins lines to cards, in the order of the file. A continuation stands directly behind its card, with the tag at the end of the line
 /// before it or without one.
-pub(super) fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Joined>, FileError> {
+pub fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Joined>, FileError> {
     let mut cards: Vec<Joined> = Vec::new();
     let mut tag = String::new();
     for line in lines {

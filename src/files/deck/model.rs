@@ -141,8 +141,13 @@ impl BulkData {
         for (column, &position) in points.iter().enumerate() {
             for row in (0..mass.nrows()).filter(|&row| row != column) {
                 let (coupling, owner) = (mass[(row, column)], || "the dynamic mass".into());
-                let expected = "zero: a deck has point masses alone";
-                require(coupling == 0.0, "coupling", owner, coupling, expected)?;
+                require(
+                    coupling == 0.0,
+                    "coupling",
+                    owner,
+                    coupling,
+                    "zero: a deck has point masses alone",
+                )?;
             }
             let label = base + column;
             all.grids.push(Grid {
@@ -155,8 +160,10 @@ impl BulkData {
                 direction: DYNAMIC_DIRECTION,
             };
             let loads = t.column(column);
-            let terms = structure.free_dof().iter().zip(&loads);
-            let terms = terms
+            let terms = structure
+                .free_dof()
+                .iter()
+                .zip(&loads)
                 .filter(|(_, factor)| **factor != 0.0)
                 .map(|(&dof, &factor)| (dof, factor))
                 .collect();
@@ -193,14 +200,19 @@ impl BulkData {
         let of_elements = self.elements.iter().flat_map(|own| &own.grids);
         let of_masses = self.masses.iter().map(|mass| &mass.grid);
         let of_ties = self.ties.iter().flat_map(|tie| {
-            let terms = tie.terms.iter().map(|(dof, _)| &dof.grid);
-            terms.chain([&tie.dependent.grid])
+            tie.terms
+                .iter()
+                .map(|(dof, _)| &dof.grid)
+                .chain([&tie.dependent.grid])
         });
         let touched: BTreeSet<&usize> = of_elements.chain(of_masses).chain(of_ties).collect();
         let is_untouched =
             |grid: &&Grid| grid.constrained != [true; 3] && !touched.contains(&grid.label);
-        let untouched = self.grids.iter().filter(is_untouched);
-        untouched.map(|grid| grid.label).collect()
+        self.grids
+            .iter()
+            .filter(is_untouched)
+            .map(|grid| grid.label)
+            .collect()
     }
 
     /// The structure: its free DOF are those that neither an SPC1 card constrains nor an MPC equation makes dependent, of grids that
@@ -246,8 +258,7 @@ impl BulkData {
 
     /// The equation of every dependent DOF.
     fn tie_of(&self) -> HashMap<StructuralDof, &Tie> {
-        let ties = self.ties.iter();
-        ties.map(|tie| (tie.dependent, tie)).collect()
+        self.ties.iter().map(|tie| (tie.dependent, tie)).collect()
     }
 
     /// The DOF with mass, free or dependent, grid by grid: masses of CMASS2 and CONM2 cards and the lumped ones of
@@ -284,8 +295,11 @@ impl BulkData {
             let volumes = corner_volumes(element.kind, corners);
             let density = element.material.density * element.size;
             let masses = volumes.into_iter().map(move |volume| density * volume);
-            let placed = corners.iter().copied().zip(masses.map(Vector3::repeat));
-            placed.collect::<Vec<_>>()
+            corners
+                .iter()
+                .copied()
+                .zip(masses.map(Vector3::repeat))
+                .collect::<Vec<_>>()
         };
         let elements = self.elements.iter().zip(structure.corners());
         let of_point = |point: &PointMass| {
@@ -317,12 +331,15 @@ impl BulkData {
         }
         mass.retain(|_, mass| *mass > 0.0);
         let motion_of = self.motions(structure);
-        let moving = mass.into_iter().map(|(dof, mass)| MovingMass {
-            dof,
-            mass,
-            motion: motion_of(dof),
-        });
-        let moving: Vec<MovingMass> = moving.filter(|point| !point.motion.is_empty()).collect();
+        let moving: Vec<MovingMass> = mass
+            .into_iter()
+            .map(|(dof, mass)| MovingMass {
+                dof,
+                mass,
+                motion: motion_of(dof),
+            })
+            .filter(|point| !point.motion.is_empty())
+            .collect();
         at_least_one("degrees of freedom with mass", moving.len())?;
         Ok(moving)
     }
@@ -365,7 +382,7 @@ impl BulkData {
         let grids = self.grids.iter().map(|grid| grid.label);
         let all =
             grids.flat_map(|grid| (0..3).map(move |direction| StructuralDof { grid, direction }));
-        let all = all.map(move |dof| (dof, motion_of(dof)));
-        all.filter(|(_, motion)| !motion.is_empty())
+        all.map(move |dof| (dof, motion_of(dof)))
+            .filter(|(_, motion)| !motion.is_empty())
     }
 }

@@ -1,7 +1,7 @@
 //! The modes of a deck, refused where double precision does not suffice for them.
 
 use super::model::BulkData;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, ensure};
 use crate::files::test_data::row_name;
 use crate::method::appendix_a::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
@@ -63,13 +63,14 @@ pub fn moving(
     let structure = model.structure()?;
     let still = RowDVector::zeros(modes.at_rows.ncols());
     let shape = |motion: Vec<(usize, f64)>| {
-        let parts = motion.into_iter();
-        parts.fold(still.clone(), |sum, (row, part)| {
+        motion.into_iter().fold(still.clone(), |sum, (row, part)| {
             sum + part * modes.at_rows.row(row)
         })
     };
-    let all = model.all_motions(&structure);
-    Ok(all.map(|(dof, motion)| (dof, shape(motion))).collect())
+    Ok(model
+        .all_motions(&structure)
+        .map(|(dof, motion)| (dof, shape(motion)))
+        .collect())
 }
 
 /// Refuses elements so unlike in stiffness that a sum of both loses the softer one.
@@ -77,30 +78,27 @@ pub fn moving(
 /// The stiffness of an element is the largest entry of its matrix, held DOF included: its direction may leave only round-off at the
 /// free ones.
 fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<(), FileError> {
-    let mut extremes: Option<[(f64, usize); 2]> = None;
+    let (mut softest, mut stiffest) = ((f64::INFINITY, 0), (0.0, 0));
     let elements = structure.elements().iter().zip(elements);
     for ((element, matrix), corners) in elements.zip(structure.corners()) {
-        if matrix.dof.is_empty() {
-            continue;
+        if !matrix.dof.is_empty() {
+            let largest = element.size * largest_entry(matrix, element, corners);
+            if largest < softest.0 {
+                softest = (largest, element.label);
+            }
+            if largest > stiffest.0 {
+                stiffest = (largest, element.label);
+            }
         }
-        let largest = largest_entry(matrix, element, corners);
-        let own = (element.size * largest, element.label);
-        let [low, high] = extremes.unwrap_or([own; 2]);
-        extremes = Some([
-            if own.0 < low.0 { own } else { low },
-            if own.0 > high.0 { own } else { high },
-        ]);
     }
-    match extremes {
-        Some([softest, stiffest]) if stiffest.0 > LARGEST_RATIO * softest.0 => {
-            Err(FileError::StiffnessRange {
-                most: LARGEST_RATIO,
-                softest,
-                stiffest,
-            })
+    let most = LARGEST_RATIO;
+    ensure(stiffest.0 <= most * softest.0, || {
+        FileError::StiffnessRange {
+            most,
+            softest,
+            stiffest,
         }
-        _ => Ok(()),
-    }
+    })
 }
 
 /// Errors if fewer modes were found than masses move independently.
@@ -120,14 +118,10 @@ fn check_count(found: usize, at: MassDof) -> Result<(), FileError> {
     };
     let (values, _) = symmetric_eigen("motions of masses", &gram)?;
     let expected = values.iter().filter(|&&value| value > INDEPENDENT).count();
-    if found >= expected {
-        Ok(())
-    } else {
-        Err(FileError::LostModes {
-            expected,
-            found,
-            lightest,
-            heaviest,
-        })
-    }
+    ensure(found >= expected, || FileError::LostModes {
+        expected,
+        found,
+        lightest,
+        heaviest,
+    })
 }

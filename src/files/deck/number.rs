@@ -48,8 +48,8 @@ pub(crate) fn real(text: &str) -> Option<f64> {
 
 /// The reals of a line in columns of one width, or `None` unless each of them holds one; the last may be narrower.
 pub fn parse_reals(line: &str, width: usize) -> Option<Vec<f64>> {
-    let columns = line.as_bytes().chunks(width);
-    columns
+    line.as_bytes()
+        .chunks(width)
         .map(|column| parse_real(std::str::from_utf8(column).ok()?.trim()))
         .collect()
 }
@@ -85,8 +85,8 @@ pub fn written_real(value: f64) -> String {
     let is_near = |text: &String| {
         parse_real(text).is_some_and(|own| (own - value).abs() <= WRITTEN * value.abs())
     };
-    let short = nearest_real(value, SMALL_FIELD).filter(is_near);
-    short
+    nearest_real(value, SMALL_FIELD)
+        .filter(is_near)
         .or_else(|| large_real(value))
         .unwrap_or_else(|| value.to_string())
 }

@@ -62,10 +62,10 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
             None => Reason::Unknown,
         }
     };
-    let unread = others
+    let mut unread: Vec<Unread> = others
         .iter()
-        .map(|found| one_unread(&found.card, why(&found.card)));
-    let mut unread: Vec<Unread> = unread.collect();
+        .map(|found| one_unread(&found.card, why(&found.card)))
+        .collect();
     let refused = [Reason::Lacking, Reason::Elsewhere, Reason::Unknown];
     let is_refused = |card: &&mut Unread| refused.contains(&card.reason);
     let mut left = unread.iter_mut().filter(is_refused);
@@ -121,8 +121,11 @@ impl Found {
     ) -> Result<Deck, FileError> {
         let may_lack = unread.iter().any(|card| card.reason == Reason::Ignored);
         let left_out = self.constraints.select(file, selected, may_lack)?;
-        let left_out = left_out.iter();
-        unread.extend(left_out.map(|card| one_unread(card, Reason::NotSelected)));
+        unread.extend(
+            left_out
+                .iter()
+                .map(|card| one_unread(card, Reason::NotSelected)),
+        );
         unread.extend(self.elements.torsion.iter().map(|card| Unread {
             card: format!("{} J", card.name),
             ..one_unread(card, Reason::Torsion)
@@ -130,12 +133,16 @@ impl Found {
         let default = self.grid_default.as_ref();
         let (mut grids, motions) = coordinates::grids(&self.grids, &self.systems, default)?;
         self.constraints.constrain(&mut grids, &motions)?;
-        let masses = self.elements.points.values().map(|Kept { card, .. }| {
-            let field = if card.name == "CONM2" { 3 } else { 4 };
-            card.referred(field, &grids, "GRID")?;
-            self.elements.point_mass(card, &motions)
-        });
-        let mut masses = masses.collect::<Result<Vec<PointMass>, FileError>>()?;
+        let mut masses = self
+            .elements
+            .points
+            .values()
+            .map(|Kept { card, .. }| {
+                let field = if card.name == "CONM2" { 3 } else { 4 };
+                card.referred(field, &grids, "GRID")?;
+                self.elements.point_mass(card, &motions)
+            })
+            .collect::<Result<Vec<PointMass>, FileError>>()?;
         let (mut elements, members) = self.elements.elements(&grids)?;
         let ties = self.constraints.ties(&grids, &motions)?;
         if let Some(card) = &self.weight {
@@ -187,9 +194,11 @@ fn kind(name: &str) -> Option<&'static str> {
         Some(start) => name.starts_with(start),
         None => name == own,
     };
-    let kinds = CARDS.lines().filter_map(|line| line.split_once(": "));
-    let mut own = kinds.filter(|(_, names)| names.split(", ").any(is_own));
-    own.next().map(|(kind, _)| kind)
+    CARDS
+        .lines()
+        .filter_map(|line| line.split_once(": "))
+        .find(|(_, names)| names.split(", ").any(is_own))
+        .map(|(kind, _)| kind)
 }
 
 /// Cards of one name that were not read, for one reason.
@@ -243,10 +252,12 @@ pub(super) fn name(card: &Card) -> String {
     let changes = match card.name.as_str() {
         "PARAM" if !is_off => Some(with(2)).filter(|own| kind(own).is_some()),
         // Pairs of names and values: the names are in even fields.
-        "MDLPRM" => {
-            let names = card.filled().into_iter().filter(|field| field % 2 == 0);
-            names.map(with).find(|own| kind(own).is_none())
-        }
+        "MDLPRM" => card
+            .filled()
+            .into_iter()
+            .filter(|field| field % 2 == 0)
+            .map(with)
+            .find(|own| kind(own).is_none()),
         _ => None,
     };
     changes.unwrap_or_else(|| card.name.clone())

@@ -45,8 +45,10 @@ pub fn rewrite(
     let cards = cards(file, &text)?;
     let mut known = ElementCards::default();
     cards.iter().try_for_each(|card| known.take(card))?;
-    let numbered = cards.iter().filter(|card| card.name.starts_with(['P', 'M']));
-    let numbers = numbered.flat_map(|card| [2, 6].map(|field| card.label(field).unwrap_or(0)));
+    let numbers = cards
+        .iter()
+        .filter(|card| card.name.starts_with(['P', 'M']))
+        .flat_map(|card| [2, 6].map(|field| card.label(field).unwrap_or(0)));
     let mut changes = Changes {
         last: numbers.max().unwrap_or(0),
         writer: Cards::beside(&text),
@@ -58,13 +60,17 @@ pub fn rewrite(
     for card in edited.values() {
         changes.add(card, &card.texts())?;
     }
-    let replaced = edited.values().flat_map(|card| &card.fields);
-    let replaced: BTreeSet<usize> = replaced.map(|field| field.line).collect();
+    let replaced: BTreeSet<usize> = edited
+        .values()
+        .flat_map(|card| &card.fields)
+        .map(|field| field.line)
+        .collect();
     let mut written = String::with_capacity(text.len());
     for (number, line) in (1..).zip(text.split_inclusive('\n')) {
-        let (comment, body) = match replaced.contains(&number) {
-            true => (&line[line.find('$').unwrap_or(line.len())..], ""),
-            false => ("", line),
+        let (comment, body) = if replaced.contains(&number) {
+            (&line[line.find('$').unwrap_or(line.len())..], "")
+        } else {
+            ("", line)
         };
         let end = if line.ends_with("\r\n") { "\r\n" } else { "\n" };
         let added = changes.added.remove(&number).unwrap_or_default();
@@ -84,8 +90,9 @@ impl Changes {
         for (label, kept) in &known.connections {
             let holder = known.holder(kept)?;
             let own = factors.get(label).unwrap_or(&[1.0; 2]).map(f64::to_bits);
-            let user = users.entry((holder.card.line, holder.size_field));
-            let (_, groups) = user.or_insert((holder, BTreeMap::<_, Vec<_>>::new()));
+            let (_, groups) = users
+                .entry((holder.card.line, holder.size_field))
+                .or_insert((holder, BTreeMap::<_, Vec<_>>::new()));
             groups.entry(own).or_default().push(kept);
         }
         for (holder, groups) in users.into_values() {
@@ -129,8 +136,7 @@ impl Changes {
             let (holder, field) = known.mass(card)?;
             let factor = *factors.get(label).unwrap_or(&1.0);
             if *shared.entry((holder.line, field)).or_insert(factor) != factor {
-                let reason = "masses of one PMASS card change by different factors; give each a card of its own";
-                return Err(card.error(3, reason));
+                return Err(card.error(3, "masses of one PMASS card change by different factors; give each a card of its own"));
             }
             if factor != 1.0 {
                 self.set(holder, field, written_real(holder.real(field)? * factor));
@@ -170,7 +176,9 @@ impl Changes {
 
     /// Writes a field of a card anew.
     fn set(&mut self, card: &Card, field: usize, text: String) {
-        let own = self.edited.entry(card.line);
-        own.or_insert_with(|| card.clone()).set(field, text);
+        self.edited
+            .entry(card.line)
+            .or_insert_with(|| card.clone())
+            .set(field, text);
     }
 }

@@ -3,11 +3,11 @@
 use super::card::{FIELDS_PER_LINE, LARGEST_LABEL};
 use super::elements::ELEMENT_CARDS;
 use super::lines::LARGE_FIELDS_PER_LINE;
-use super::model::{BulkData, PointMass, Tie};
+use super::model::BulkData;
 use super::number::{LARGE_FIELD, SMALL_FIELD, exact_real, large_real};
 use crate::files::error::FileError;
 use crate::method::error::{check_count, require};
-use crate::method::structure::{Element, Grid, Material};
+use crate::method::structure::{Grid, Material};
 
 /// The set of constraints that case control selects, of SPC1 and of MPC.
 const SET: usize = 1;
@@ -48,10 +48,9 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
             (1, [1.0, 2.0], alter, "")
         }
     };
-    let ties = if model.ties.is_empty() {
-        String::new()
-    } else {
-        format!("MPC = {SET}\n")
+    let ties = match model.ties[..] {
+        [] => String::new(),
+        _ => format!("MPC = {SET}\n"),
     };
     let text = format!(
         "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n\
@@ -64,17 +63,15 @@ pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileE
         ..Cards::default()
     };
     cards.model(model)?;
-    cards.push(
-        "EIGR",
-        &format!("{SET},INV,{lower:?},{upper:?},{count},{count},,,MASS"),
-    )?;
+    let method = format!("{SET},INV,{lower:?},{upper:?},{count},{count},,,MASS");
+    cards.push("EIGR", &method)?;
     cards.text.push_str("ENDDATA\n");
     Ok(cards.text)
 }
 
 /// Cards as text.
 #[derive(Default)]
-pub(crate) struct Cards {
+pub struct Cards {
     pub text: String,
     /// Beginning of the names of continuations.
     pub prefix: String,
@@ -93,81 +90,25 @@ impl Cards {
     }
 
     fn model(&mut self, model: &BulkData) -> Result<(), FileError> {
-        for Grid {
-            label,
-            position: at,
-            ..
-        } in &model.grids
-        {
+        for grid in &model.grids {
+            let (label, at) = (grid.label, grid.position);
             self.push(
                 "GRID",
                 &format!("{label},,{:?},{:?},{:?}", at.x, at.y, at.z),
             )?;
         }
-        let mut materials: Vec<Material> = Vec::new();
-        for Element {
-            label,
-            kind,
-            grids,
-            size,
-            material,
-        } in &model.elements
-        {
-            let known = materials.iter().position(|other| other == material);
-            let row = known.unwrap_or_else(|| {
-                materials.push(*material);
-                materials.len() - 1
-            });
-            for (connection, property, _) in ELEMENT_CARDS.iter().filter(|card| card.2 == *kind) {
-                let corners: String = grids.iter().map(|grid| format!(",{grid}")).collect();
-                self.push(connection, &format!("{label},{label}{corners}"))?;
-                self.push(property, &format!("{label},{},{size:?}", row + 1))?;
+        self.elements(model)?;
+        for point in &model.masses {
+            let (label, grid, mass) = (point.label, point.grid, point.mass);
+            match point.direction.map(|direction| direction + 1) {
+                Some(own) => self.push("CMASS2", &format!("{label},{mass:?},{grid},{own}"))?,
+                None => self.push("CONM2", &format!("{label},{grid},,{mass:?}"))?,
             }
         }
-        for (row, material) in (1..).zip(materials) {
-            let Material {
-                youngs_modulus: e,
-                poissons_ratio: nu,
-                shear_modulus: g,
-                density,
-            } = material;
-            let is_derived = Material::isotropic(e, nu).is_ok_and(|other| other.shear_modulus == g);
-            let shear = if is_derived {
-                String::new()
-            } else {
-                format!("{g:?}")
-            };
-            let density = if density == 0.0 {
-                String::new()
-            } else {
-                format!(",{density:?}")
-            };
-            self.push("MAT1", &format!("{row},{e:?},{shear},{nu:?}{density}"))?;
-        }
-        for PointMass {
-            label,
-            grid,
-            direction,
-            mass,
-        } in &model.masses
-        {
-            match direction {
-                Some(direction) => self.push(
-                    "CMASS2",
-                    &format!("{label},{mass:?},{grid},{}", direction + 1),
-                ),
-                None => self.push("CONM2", &format!("{label},{grid},,{mass:?}")),
-            }?;
-        }
-        for Tie {
-            dependent,
-            coefficient,
-            terms,
-        } in &model.ties
-        {
+        for tie in &model.ties {
             let mut entries = SET.to_string();
-            let own = std::iter::once((*dependent, *coefficient));
-            for (row, (dof, coefficient)) in own.chain(terms.iter().copied()).enumerate() {
+            let own = [(tie.dependent, tie.coefficient)];
+            for (row, (dof, coefficient)) in own.iter().chain(&tie.terms).enumerate() {
                 // Two terms to a line; the last field of one and the first of the next stay blank.
                 entries += if row > 0 && row % 2 == 0 { ",,," } else { "," };
                 entries += &format!("{},{},{coefficient:?}", dof.grid, dof.direction + 1);
@@ -177,23 +118,44 @@ impl Cards {
         let alike = |a: &Grid, b: &Grid| a.constrained == b.constrained && a.label + 1 == b.label;
         for run in model.grids.chunk_by(alike) {
             let (first, last) = (&run[0], run[run.len() - 1].label); // A run has at least one.
+            let held = (0..3).filter(|direction| first.constrained[*direction]);
+            let held: String = held.map(|direction| (direction + 1).to_string()).collect();
             // The rotations of every grid are constrained, for nothing here resists them.
-            let named = ["1", "2", "3", "456"]
-                .into_iter()
-                .zip(first.constrained.into_iter().chain([true]));
-            let components: String = named
-                .filter(|(_, is_constrained)| *is_constrained)
-                .map(|named| named.0)
-                .collect();
-            let through = if run.len() > 1 {
-                format!(",THRU,{last}")
-            } else {
-                String::new()
+            let mut entries = format!("{SET},{held}456,{}", first.label);
+            if run.len() > 1 {
+                entries += &format!(",THRU,{last}");
+            }
+            self.push("SPC1", &entries)?;
+        }
+        Ok(())
+    }
+
+    /// Cards of elements, each with a property, and of their materials.
+    fn elements(&mut self, model: &BulkData) -> Result<(), FileError> {
+        let mut materials: Vec<Material> = Vec::new();
+        for own in &model.elements {
+            let known = materials.iter().position(|other| *other == own.material);
+            let row = known.unwrap_or(materials.len());
+            materials.extend(known.is_none().then_some(own.material));
+            for (connection, property, _) in ELEMENT_CARDS.iter().filter(|card| card.2 == own.kind)
+            {
+                let corners: String = own.grids.iter().map(|grid| format!(",{grid}")).collect();
+                self.push(connection, &format!("{0},{0}{corners}", own.label))?;
+                self.push(
+                    property,
+                    &format!("{},{},{:?}", own.label, row + 1, own.size),
+                )?;
+            }
+        }
+        for (row, own) in (1..).zip(materials) {
+            let (e, nu, g) = (own.youngs_modulus, own.poissons_ratio, own.shear_modulus);
+            let is_derived = Material::isotropic(e, nu).is_ok_and(|other| other.shear_modulus == g);
+            let text = |value: f64, is_blank| match is_blank {
+                true => String::new(),
+                false => format!("{value:?}"),
             };
-            self.push(
-                "SPC1",
-                &format!("{SET},{components},{}{through}", first.label),
-            )?;
+            let (shear, density) = (text(g, is_derived), text(own.density, own.density == 0.0));
+            self.push("MAT1", &format!("{row},{e:?},{shear},{nu:?},{density}"))?;
         }
         Ok(())
     }
@@ -208,8 +170,12 @@ impl Cards {
             is_large |= entry.len() > SMALL_FIELD && real.is_err();
             fields.push(match (label, real) {
                 (Ok(label), _) => {
-                    let what = "number of a grid or element in a deck";
-                    check_count(what, label.unsigned_abs().max(1), 1, LARGEST_LABEL)?;
+                    check_count(
+                        "number of a grid or element in a deck",
+                        label.unsigned_abs().max(1),
+                        1,
+                        LARGEST_LABEL,
+                    )?;
                     entry.to_owned()
                 }
                 (Err(_), Ok(value)) => {
@@ -222,9 +188,10 @@ impl Cards {
                 _ => entry.to_owned(),
             });
         }
-        let (width, per_line, mark, plus) = match is_large {
-            true => (LARGE_FIELD, LARGE_FIELDS_PER_LINE, "*", '*'),
-            false => (SMALL_FIELD, FIELDS_PER_LINE, "", '+'),
+        let (width, per_line, mark, plus) = if is_large {
+            (LARGE_FIELD, LARGE_FIELDS_PER_LINE, "*", '*')
+        } else {
+            (SMALL_FIELD, FIELDS_PER_LINE, "", '+')
         };
         // NASTRAN-95 takes a line of the large format for half a card and wants the other half too.
         let whole = fields.len().next_multiple_of(FIELDS_PER_LINE);

@@ -7,7 +7,7 @@ const PRINTED: usize = 5;
 
 /// Digits of all numbers of a file.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Digits {
+pub struct Digits {
     /// Most significant digits of a number, with the zeros that end a fraction.
     written: usize,
     /// Most of them without the zeros at the end.
@@ -18,7 +18,7 @@ pub(crate) struct Digits {
 
 impl Digits {
     /// Counts the digits of one more number, in any way that NASTRAN or C write it.
-    pub(crate) fn add(&mut self, number: &str) {
+    pub fn add(&mut self, number: &str) {
         let unsigned = number.trim().trim_start_matches(['+', '-']);
         let end = unsigned.find(|c: char| !c.is_ascii_digit() && c != '.');
         let mantissa = &unsigned[..end.unwrap_or(unsigned.len())];
@@ -41,7 +41,7 @@ impl Digits {
     /// $$ u = \frac{1}{2} \cdot 10^{1 - n} . $$
     ///
     /// Numbers shorter than a program prints them are exact.
-    pub(crate) fn half_unit(&self) -> HalfUnit {
+    pub fn half_unit(&self) -> HalfUnit {
         match self.decimals.flatten() {
             _ if self.needed < PRINTED => HalfUnit::of_each(0.0),
             Some(decimals) => HalfUnit::of_all(0.5 * 10_f64.powf(-(decimals as f64))),

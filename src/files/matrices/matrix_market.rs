@@ -20,10 +20,11 @@ struct Heading {
 
 /// Reads a matrix; entries of one place in the coordinate format add up. A symmetric one may have both triangles where they agree, or
 /// the upper one, and complex numbers may have imaginary parts of zero.
-pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
+pub fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     let end = text.lines().count() + 1;
-    let lines = (1..).zip(text.lines().map(str::trim));
-    let mut lines = lines.filter(|(_, line)| !line.is_empty());
+    let mut lines = (1..)
+        .zip(text.lines().map(str::trim))
+        .filter(|(_, line)| !line.is_empty());
     let (first, banner) = lines.next().unwrap_or((1, ""));
     let mut lines = lines.filter(|(_, line)| !line.starts_with('%'));
     let own = heading(file, (first, banner), lines.next(), end)?;
@@ -45,19 +46,26 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
             [_] if own.is_array => places.next(),
             [row, column, _] if !own.is_array && read < own.count => {
                 let place = |word: &str, most| word.parse().ok().filter(|n| (1..=most).contains(n));
-                let place = place(row, own.rows).zip(place(column, own.columns));
-                let place = place.map(|(row, column): (usize, usize)| (row - 1, column - 1));
+                let place = place(row, own.rows)
+                    .zip(place(column, own.columns))
+                    .map(|(row, column): (usize, usize)| (row - 1, column - 1));
                 let is_stored =
                     |&(row, column): &_| own.mirror == Some(1.0) || row >= first_row(column);
-                let what = "an entry within the part of the matrix that is stored";
-                Some(place.filter(is_stored).ok_or_else(|| wrong(what))?)
+                Some(place.filter(is_stored).ok_or_else(|| {
+                    wrong("an entry within the part of the matrix that is stored")
+                })?)
             }
             [_, _, _] if !own.is_array => None,
             _ if own.is_array => return Err(wrong("a value")),
             _ => return Err(wrong("a row, a column and a value")),
         };
-        let reason = "there are more entries than the line of sizes says";
-        let (row, column) = given.ok_or_else(|| FileError::line(file, number, reason))?;
+        let (row, column) = given.ok_or_else(|| {
+            FileError::line(
+                file,
+                number,
+                "there are more entries than the line of sizes says",
+            )
+        })?;
         let word = words.last().copied().unwrap_or_default();
         let value = real(word);
         let value =
@@ -74,17 +82,18 @@ pub(super) fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
         return Err(FileError::line(file, end, reason));
     }
     if own.mirror == Some(1.0) {
-        entries = mirrored(entries).map_err(|(row, column)| {
+        entries = mirrored(entries).map_err(|both| {
+            let [row, column] = both.map(|place| place + 1);
             let reason = format!(
-                "entries ({0}, {1}) and ({1}, {0}) of a symmetric matrix differ, or one of them is missing",
-                row + 1,
-                column + 1
+                "entries ({row}, {column}) and ({column}, {row}) of a symmetric matrix differ, or one of them is missing"
             );
             FileError::line(file, first, reason)
         })?;
     }
-    let matrix = SparseMatrix::new("matrix of a file", own.rows, own.columns, entries)?;
-    Ok(matrix.with_half_unit(digits.half_unit()))
+    Ok(
+        SparseMatrix::new("matrix of a file", own.rows, own.columns, entries)?
+            .with_half_unit(digits.half_unit()),
+    )
 }
 
 /// Reads the banner and the line of sizes, each with its number; the file ends in line `end`.
@@ -106,16 +115,22 @@ fn heading(
         symmetry,
     ] = words[..]
     else {
-        let what = "the banner of a matrix: array or coordinate, real, integer or complex, and its symmetry";
-        return Err(wrong(first, banner, what));
+        return Err(wrong(
+            first,
+            banner,
+            "the banner of a matrix: array or coordinate, real, integer or complex, and its symmetry",
+        ));
     };
     let mirror = match symmetry {
         "general" => None,
         "symmetric" | "hermitian" => Some(1.0),
         "skew-symmetric" => Some(-1.0),
         _ => {
-            let what = "general, symmetric, hermitian or skew-symmetric";
-            return Err(wrong(first, symmetry, what));
+            return Err(wrong(
+                first,
+                symmetry,
+                "general, symmetric, hermitian or skew-symmetric",
+            ));
         }
     };
     let (at, sizes) = sizes
@@ -131,9 +146,11 @@ fn heading(
         _ => (0, 0, 0),
     };
     if rows == 0 || columns == 0 {
-        let what =
-            "a line of sizes: rows, columns and, in the coordinate format, the number of entries";
-        return Err(wrong(at, sizes, what));
+        return Err(wrong(
+            at,
+            sizes,
+            "a line of sizes: rows, columns and, in the coordinate format, the number of entries",
+        ));
     }
     if mirror.is_some() && rows != columns {
         return Err(wrong(

@@ -69,8 +69,9 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
         return Err(FileError::refused(name, reason));
     }
     let read = if is_dmig { dmig::read } else { output4::read };
-    let numbered = wanted.and_then(|wanted| wanted.rsplit_once('@'));
-    let numbered = numbered.and_then(|(name, at)| Some((name, at.parse::<usize>().ok()?)));
+    let numbered = wanted
+        .and_then(|wanted| wanted.rsplit_once('@'))
+        .and_then(|(name, at)| Some((name, at.parse::<usize>().ok()?)));
     let (names, found) = read(name, &text, numbered.map(|own| own.0).or(wanted))?;
     let (count, place) = (found.len(), numbered.map_or(1, |own| own.1));
     let place = place
@@ -106,10 +107,10 @@ fn other_format(text: &str) -> Option<&'static str> {
         );
     }
     let numbers = |line: &str| -> Option<Vec<f64>> {
-        let words = line
-            .split([' ', '\t', ',', ';'])
-            .filter(|word| !word.is_empty());
-        words.map(real).collect()
+        line.split([' ', '\t', ',', ';'])
+            .filter(|word| !word.is_empty())
+            .map(real)
+            .collect()
     };
     let is_place = |number: &f64| *number >= 1.0 && number.fract() == 0.0;
     let is_entry = |line: &str| {
@@ -128,31 +129,57 @@ fn other_format(text: &str) -> Option<&'static str> {
 /// Names of all matrices of a file, and those among them that are wanted.
 type FoundMatrices = (Vec<String>, Vec<LabeledMatrix>);
 
-/// Row, column and value.
-type Entry = (usize, usize, f64);
+/// A matrix of a file by labels of rows and columns; a square one has one list for both.
+fn labeled(
+    entries: Vec<(Label, Label, f64)>,
+    is_square: bool,
+    digits: Digits,
+    dmig: Option<String>,
+) -> Result<LabeledMatrix, FileError> {
+    let mut rows: BTreeSet<Label> = entries.iter().map(|entry| entry.0).collect();
+    let mut columns: BTreeSet<Label> = entries.iter().map(|entry| entry.1).collect();
+    if is_square {
+        rows.append(&mut columns);
+        columns.clone_from(&rows);
+    }
+    let [rows, columns] = [rows, columns].map(|labels| labels.into_iter().collect::<Vec<Label>>());
+    // Every label was put in its list above.
+    let place = |labels: &[Label], label| labels.partition_point(|other| *other < label);
+    let entries = entries
+        .into_iter()
+        .map(|own| (place(&rows, own.0), place(&columns, own.1), own.2));
+    let what = dmig.as_ref().map_or("matrix of a file", |_| "DMIG matrix");
+    let matrix = SparseMatrix::new(what, rows.len(), columns.len(), entries.collect())?;
+    Ok(LabeledMatrix {
+        rows: Some(rows),
+        columns: Some(columns),
+        matrix: matrix.with_half_unit(digits.half_unit()),
+        dmig,
+    })
+}
 
 /// Entries of a symmetric matrix, both triangles from one of them, or from both where they agree.
 ///
 /// # Errors
 /// A row and a column off the diagonal of which both triangles, where both have entries, do not say the same.
-fn mirrored(entries: Vec<Entry>) -> Result<Vec<Entry>, (usize, usize)> {
-    let mut sums: BTreeMap<(usize, usize), f64> = BTreeMap::new();
-    for &(row, column, value) in entries.iter().filter(|entry| entry.0 != entry.1) {
-        *sums.entry((row, column)).or_default() += value;
+fn mirrored<T: Copy + Ord>(mut entries: Vec<(T, T, f64)>) -> Result<Vec<(T, T, f64)>, [T; 2]> {
+    let others: Vec<_> = entries
+        .iter()
+        .filter(|entry| entry.0 != entry.1)
+        .map(|own| (own.1, own.0, own.2))
+        .collect();
+    let mut sums: BTreeMap<[T; 2], f64> = BTreeMap::new();
+    for &(column, row, value) in &others {
+        *sums.entry([row, column]).or_default() += value;
     }
-    let opposite = |(row, column): &(usize, usize)| sums.get(&(*column, *row));
+    let opposite = |&[row, column]: &[T; 2]| sums.get(&[column, row]);
     if sums.keys().all(|place| opposite(place).is_none()) {
-        let others = entries.iter().filter(|entry| entry.0 != entry.1);
-        let others: Vec<_> = others
-            .map(|&(row, column, value)| (column, row, value))
-            .collect();
-        return Ok([entries, others].concat());
+        entries.extend(others);
+        return Ok(entries);
     }
-    let differs = |own: &(&(usize, usize), &f64)| opposite(own.0) != Some(own.1);
-    match sums.iter().find(differs) {
-        Some((place, _)) => Err(*place),
-        None => Ok(entries),
-    }
+    sums.iter()
+        .find(|own| opposite(own.0) != Some(own.1))
+        .map_or(Ok(entries), |own| Err(*own.0))
 }
 
 /// Refuses a text that ends inside a number: no line end is behind it, and it lacks an exponent that all numbers before it have, or decimals
@@ -173,8 +200,11 @@ fn check_end(name: &str, text: &str) -> Result<(), FileError> {
         least[0] > 0 && last[0] == 0 || before.len() == 1 && is_shorter
     });
     if is_cut {
-        let reason = "the file ends inside a number, which lacks what all before it have; write it again, or end its last line if it is whole";
-        return Err(FileError::line(name, text.lines().count(), reason));
+        return Err(FileError::line(
+            name,
+            text.lines().count(),
+            "the file ends inside a number, which lacks what all before it have; write it again, or end its last line if it is whole",
+        ));
     }
     Ok(())
 }

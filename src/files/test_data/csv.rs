@@ -32,7 +32,7 @@
 
 use super::{DIRECTION, Sensor, TestData, default_name, direction, real};
 use crate::files::deck::number::LARGEST;
-use crate::files::error::{FileError, is_not};
+use crate::files::error::{FileError, ensure, is_not};
 use crate::files::inert;
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::collections::BTreeMap;
@@ -74,83 +74,95 @@ impl TestRow<'_> {
             .map_or("", String::as_str)
     }
 
-    fn wrong<T>(&self, reason: String) -> Result<T, FileError> {
-        Err(FileError::line(self.file, self.number, reason))
+    fn wrong(&self, reason: impl Into<String>) -> FileError {
+        FileError::line(self.file, self.number, reason)
     }
 
-    fn is_not<T>(&self, found: &str, what: &str) -> Result<T, FileError> {
+    fn is_not(&self, found: &str, what: &str) -> FileError {
         self.wrong(is_not(found, what))
     }
 
-    fn numbers(&self, columns: &[usize]) -> Result<Vec<f64>, FileError> {
-        let number = |&column: &usize| {
-            let cell = self.cell(Some(column));
-            let value = real(&if self.separator == ',' {
-                cell.to_owned()
-            } else {
-                cell.replace(',', ".")
-            });
-            let value = value.filter(|value| value.abs() <= LARGEST);
-            value.map_or_else(|| self.is_not(cell, "a number"), Ok)
+    fn number(&self, column: usize) -> Result<f64, FileError> {
+        let cell = self.cell(Some(column));
+        let value = match self.separator {
+            ',' => real(cell),
+            _ => real(&cell.replace(',', ".")),
         };
-        columns.iter().map(number).collect()
+        value
+            .filter(|value| value.abs() <= LARGEST)
+            .ok_or_else(|| self.is_not(cell, "a number"))
+    }
+
+    fn numbers(&self, columns: &[usize]) -> Result<Vec<f64>, FileError> {
+        columns.iter().map(|column| self.number(*column)).collect()
     }
 
     fn header(&self) -> Result<Header, FileError> {
         let (mut titles, mut modes, mut deviations) = ([None; 7], Vec::new(), BTreeMap::new());
-        for (column, cell) in self.cells.iter().enumerate() {
-            if cell.is_empty() {
-                continue;
-            }
+        for (column, cell) in self
+            .cells
+            .iter()
+            .enumerate()
+            .filter(|own| !own.1.is_empty())
+        {
             let title = cell.to_lowercase();
             let place = TITLES.iter().position(|name| *name == title);
-            let is_taken = match (place, title.strip_prefix("deviation"), of_mode(&title)) {
+            let deviation = title
+                .strip_prefix("deviation")
+                .map(|own| own.trim().parse());
+            let is_taken = match (place, deviation, of_mode(&title)) {
                 (Some(place), ..) => titles[place].replace(column).is_none(),
-                (_, Some(number), _) => number
-                    .trim()
-                    .parse::<usize>()
-                    .is_ok_and(|number| deviations.insert(number, column).is_none()),
-                (.., Some(number)) => {
-                    modes.push((column, number));
-                    true
+                (_, Some(number), _) => {
+                    number.is_ok_and(|number: usize| deviations.insert(number, column).is_none())
                 }
-                _ => false,
+                (.., number) => {
+                    modes.extend(number.map(|number| (column, number)));
+                    number.is_some()
+                }
             };
-            if !is_taken {
-                let what = "a title: name, grid, direction, sign, x, y and z once each, mode 1 or 1 and so on, or a title deviation with the \
-                            number of a mode, once each";
-                return self.is_not(cell, what);
-            }
+            ensure(is_taken, || {
+                self.is_not(cell, "a title: name, grid, direction, sign, x, y and z once each, mode 1 or 1 and so on, or a title deviation with the \
+                            number of a mode, once each")
+            })?;
         }
         let mut numbered = modes.iter().enumerate();
-        let first = numbered.find_map(|(place, own)| Some(own.1?.saturating_sub(place)));
-        let first = first.unwrap_or(1).max(1);
+        let first = numbered
+            .find_map(|(place, own)| Some(own.1?.saturating_sub(place)))
+            .unwrap_or(1)
+            .max(1);
         for (number, &(column, own)) in (first..).zip(&modes) {
             let cell = &self.cells[column];
             let is_it = |other: &String| other.to_lowercase() == cell.to_lowercase();
-            if own.is_some_and(|own| own != number) || self.cells[..column].iter().any(is_it) {
-                return self.wrong(format!(
+            ensure(
+                own.is_none_or(|own| own == number) && !self.cells[..column].iter().any(is_it),
+                || {
+                    self.wrong(format!(
                     "column {}: this is mode {number}, but its title is \"{cell}\"; titles must differ and number modes from left to right",
                     column + 1
-                ));
-            }
+                ))
+                },
+            )?;
+        }
+        let known = first..first + modes.len();
+        for mode in deviations.keys() {
+            ensure(known.contains(mode), || {
+                self.wrong(format!(
+                    "there is a column deviation {mode}, but no mode {mode}"
+                ))
+            })?;
         }
         let axes = titles[4..].iter().flatten().count();
         let names_sensors =
             titles[2].is_some() && titles[..2] != [None; 2] && [0, 3].contains(&axes);
-        let complete = (names_sensors || titles == [None; 7]) && !modes.is_empty();
-        let known = first..first + modes.len();
-        if let Some(mode) = deviations.keys().find(|mode| !known.contains(*mode)) {
-            return self.wrong(format!(
-                "there is a column deviation {mode}, but no mode {mode}"
-            ));
-        }
-        let deviations = deviations.into_iter();
-        let deviations = deviations.map(|(number, column)| (number - first, column));
-        let what = "a header with direction, name or grid, a column for every mode, and all of x, y, z or none";
-        if !complete {
-            return self.is_not(&self.cells.join(" "), what);
-        }
+        ensure(
+            (names_sensors || titles == [None; 7]) && !modes.is_empty(),
+            || {
+                self.is_not(&self.cells.join(" "), "a header with direction, name or grid, a column for every mode, and all of x, y, z or none")
+            },
+        )?;
+        let deviations = deviations
+            .into_iter()
+            .map(|(number, column)| (number - first, column));
         Ok(Header {
             titles,
             modes: modes.into_iter().map(|own| own.0).collect(),
@@ -161,68 +173,64 @@ impl TestRow<'_> {
 
     /// Refuses a row that ends before its last number, or has something beside the columns of its numbers and, of a sensor, its names.
     fn check_columns(&self, header: &Header, is_sensor: bool) -> Result<(), FileError> {
-        let of_sensor = || {
-            header
-                .titles
-                .iter()
-                .flatten()
-                .chain(header.deviations.values())
-        };
-        let own = || of_sensor().filter(|_| is_sensor).chain(&header.modes);
-        let (found, wanted) = (self.cells.len(), own().max().map_or(0, |last| last + 1));
-        if found < wanted {
-            return self.wrong(format!("the row has {found} cells and needs {wanted}"));
+        let own: Vec<&usize> = header
+            .titles
+            .iter()
+            .flatten()
+            .chain(header.deviations.values())
+            .filter(|_| is_sensor)
+            .chain(&header.modes)
+            .collect();
+        let wanted = own.iter().max().map_or(0, |last| *last + 1);
+        let found = self.cells.len();
+        ensure(found >= wanted, || {
+            self.wrong(format!("the row has {found} cells and needs {wanted}"))
+        })?;
+        for (column, cell) in self.cells.iter().enumerate().skip(usize::from(!is_sensor)) {
+            ensure(cell.is_empty() || own.contains(&&column), || {
+                self.wrong(format!(
+                    "column {}: \"{cell}\" stands where nothing belongs; decimal commas need semicolons or tabs between cells",
+                    column + 1
+                ))
+            })?;
         }
-        let is_stray =
-            |&column: &usize| !self.cells[column].is_empty() && own().all(|own| *own != column);
-        match (usize::from(!is_sensor)..found).find(is_stray) {
-            None => Ok(()),
-            Some(column) => self.wrong(format!(
-                "column {}: \"{}\" stands where nothing belongs; decimal commas need semicolons or tabs between cells",
-                column + 1,
-                self.cells[column]
-            )),
-        }
+        Ok(())
     }
 
     /// The sensor of the row, and -1 if it points against its axis.
     fn sensor(&self, titles: &[Option<usize>; 7]) -> Result<(Sensor, f64), FileError> {
         let [name, grid, word, sign, x, y, z] = titles.map(|column| self.cell(column));
-        let Some((direction, turned)) = direction(word) else {
-            return self.is_not(word, DIRECTION);
-        };
+        let (direction, turned) = direction(word).ok_or_else(|| self.is_not(word, DIRECTION))?;
         let sign = match sign {
             "" => turned,
             _ if word.starts_with(['+', '-']) => {
-                return self.is_not(sign, "empty, where the direction has a sign");
+                return Err(self.is_not(sign, "empty, where the direction has a sign"));
             }
             "+" | "1" | "+1" => 1.0,
             "-" | "-1" => -1.0,
-            other => return self.is_not(other, "a sign + or -"),
+            other => return Err(self.is_not(other, "a sign + or -")),
         };
         // Programs that know one kind of number write 12.0 for 12.
         let number = |text: &str| text.strip_suffix(".0").unwrap_or(text).parse();
-        let number = |text| number(text).or_else(|_| self.is_not(text, "a grid number"));
+        let number = |text| number(text).map_err(|_| self.is_not(text, "a grid number"));
         let grid = (!grid.is_empty()).then(|| number(grid)).transpose()?;
         let axes: Vec<usize> = titles[4..].iter().flatten().copied().collect();
-        let is_placed = [x, y, z] != [""; 3];
-        let place = is_placed.then(|| self.numbers(&axes)).transpose()?;
-        let place = place.map(|numbers| Vector3::from_column_slice(&numbers));
-        let name = match grid {
-            None if name.is_empty() => return self.is_not("", "a name or a grid number"),
-            Some(grid) if name.is_empty() => default_name(grid, direction),
+        let place = ([x, y, z] != [""; 3])
+            .then(|| self.numbers(&axes))
+            .transpose()?;
+        let name = match (name, grid) {
+            ("", None) => return Err(self.is_not("", "a name or a grid number")),
+            ("", Some(grid)) => default_name(grid, direction),
             _ => name.to_owned(),
         };
-        Ok((
-            Sensor {
-                name,
-                grid,
-                direction,
-                axis: None,
-                place,
-            },
-            sign,
-        ))
+        let sensor = Sensor {
+            name,
+            grid,
+            direction,
+            axis: None,
+            place: place.map(|numbers| Vector3::from_column_slice(&numbers)),
+        };
+        Ok((sensor, sign))
     }
 }
 
@@ -237,25 +245,85 @@ fn of_mode(title: &str) -> Option<Option<usize>> {
     (behind.is_some() || is_whole).then_some(number)
 }
 
-pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
+/// Rows of a table: those with a number for every mode, the header, and those of sensors.
+type Rows<'a> = ([Option<TestRow<'a>>; 4], Header, Vec<TestRow<'a>>);
+
+pub fn read(file: &str, text: &str) -> Result<TestData, FileError> {
+    let missing = |what: &str| {
+        let reason = format!("the file ends without {what}");
+        FileError::line(file, text.lines().count(), reason)
+    };
+    let (by_mode, header, sensors) = rows(file, text, &missing)?;
+    let (modes, first) = (&header.modes, header.first);
+    let list = |row: &Option<TestRow>| row.as_ref().map(|row| row.numbers(modes)).transpose();
+    let [hertz, frequency_deviation, shape_deviation, phases] = by_mode.each_ref().map(list);
+    let mut data = TestData {
+        frequencies_hz: hertz?.ok_or_else(|| missing("a row frequency_hz"))?,
+        frequency_deviation: frequency_deviation?,
+        shape_deviation: shape_deviation?,
+        phase_collinearity: phases?.unwrap_or_default(),
+        ..TestData::default()
+    };
+    if first != 1 {
+        data.numbers = (first..first + modes.len()).collect();
+    }
+    let is_empty = |row: &TestRow, mode: usize| row.cell(Some(modes[mode])).is_empty();
+    let (alone, shaped): (Vec<usize>, Vec<usize>) =
+        (0..modes.len()).partition(|&mode| sensors.iter().all(|row| is_empty(row, mode)));
+    data.shapes = DMatrix::zeros(sensors.len(), modes.len());
+    let mut whole = Vec::new();
+    for row in &sensors {
+        let (sensor, sign) = row.sensor(&header.titles)?;
+        if let Some(mode) = shaped.iter().find(|&&mode| is_empty(row, mode)) {
+            let left_out = format!("{} (mode {})", sensor.name, first + mode);
+            data.incomplete.push(left_out);
+            continue;
+        }
+        for &mode in &shaped {
+            data.shapes[(whole.len(), mode)] = sign * row.number(modes[mode])?;
+        }
+        data.sensors.push(sensor);
+        whole.push(row);
+    }
+    ensure(sensors.is_empty() || !whole.is_empty(), || {
+        missing("a sensor with a reading in every mode")
+    })?;
+    data.shapes.resize_vertically_mut(whole.len(), 0.0);
+    for (mode, column) in header.deviations {
+        if !alone.contains(&mode) {
+            let values = whole
+                .iter()
+                .map(|row| row.number(column))
+                .collect::<Result<_, FileError>>()?;
+            data.component_deviation
+                .insert(mode, DVector::from_vec(values));
+        }
+    }
+    data.alone = alone;
+    Ok(data)
+}
+
+fn rows<'a>(
+    file: &'a str,
+    text: &str,
+    missing: &impl Fn(&str) -> FileError,
+) -> Result<Rows<'a>, FileError> {
     let is_comment = |line: &str| line.starts_with('#') || line.starts_with("\"#");
     let named = |line: &str| {
-        let own = line.trim_matches('"').strip_prefix("sep=")?;
-        let mut own = own.chars();
+        let mut own = line.trim().trim_matches('"').strip_prefix("sep=")?.chars();
         own.next().filter(|_| own.next().is_none())
     };
-    let lines = || {
-        (1..)
-            .zip(text.lines())
-            .filter(|(_, line)| !line.trim().is_empty() && named(line.trim()).is_none())
-    };
-    let first = lines().find(|(_, line)| !is_comment(line));
-    let named = text.lines().find_map(|line| named(line.trim()));
-    let separator = named.unwrap_or(separator(first.map_or("", |(_, line)| line)));
-    let (mut by_mode, mut header, mut rows): ([Option<TestRow>; 4], Option<Header>, Vec<TestRow>) =
-        Default::default();
-    let mut hashed = Vec::new();
-    for (number, line) in lines() {
+    let lines = (1..)
+        .zip(text.lines())
+        .filter(|own| !own.1.trim().is_empty() && named(own.1).is_none());
+    let first = lines.clone().find(|(_, line)| !is_comment(line));
+    let separator = text
+        .lines()
+        .find_map(named)
+        .unwrap_or(separator(first.map_or("", |(_, line)| line)));
+    let (mut by_mode, mut header, mut sensors, mut hashed) =
+        ([const { None }; 4], None::<Header>, Vec::new(), Vec::new());
+    for (number, line) in lines {
         let row = TestRow {
             file,
             number,
@@ -264,106 +332,55 @@ pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
         };
         if line.starts_with('#') {
             // Below the header a row may be a sensor whose name begins so.
-            let is_sensor = header.as_ref().is_some_and(|header: &Header| {
+            let is_sensor = header.as_ref().is_some_and(|header| {
                 row.check_columns(header, true).is_ok() && row.sensor(&header.titles).is_ok()
             });
             hashed.extend(Some(row).filter(|_| is_sensor && !line.starts_with("##")));
             continue;
         }
-        let letters = row.cell(Some(0)).chars().filter(|c| c.is_alphanumeric());
-        let name = letters.collect::<String>().to_lowercase();
         if header.is_none() && is_comment(line) || row.cells.iter().all(String::is_empty) {
             continue;
-        } else if line.matches('"').count() % 2 == 1 {
-            return row.wrong(format!("a quotation mark is not closed: {line}"));
-        } else if let Some(place) = ROWS.iter().position(|row| *row == name) {
-            if by_mode[place].is_some() {
-                return row.wrong(format!("this is the second row {}", row.cells[0]));
-            }
+        }
+        ensure(line.matches('"').count() % 2 == 0, || {
+            row.wrong(format!("a quotation mark is not closed: {line}"))
+        })?;
+        let name = row
+            .cell(Some(0))
+            .chars()
+            .filter(|c| c.is_alphanumeric())
+            .collect::<String>()
+            .to_lowercase();
+        if let Some(place) = ROWS.iter().position(|row| *row == name) {
+            ensure(by_mode[place].is_none(), || {
+                row.wrong(format!("this is the second row {}", row.cells[0]))
+            })?;
             by_mode[place] = Some(row);
         } else if header.is_none() {
             header = Some(row.header()?);
         } else {
-            rows.push(row);
+            sensors.push(row);
         }
     }
-    let missing = |what| {
-        let reason = format!("the file ends without {what}");
-        FileError::line(file, text.lines().count(), reason)
-    };
     let header = header.ok_or_else(|| missing("a header"))?;
-    if let Some(row) = hashed.first().filter(|_| !rows.is_empty()) {
-        return row.wrong(format!(
+    if let Some(row) = hashed.first().filter(|_| !sensors.is_empty()) {
+        return Err(row.wrong(format!(
             "\"{}\" may be a comment or a sensor; put the name of a sensor in quotation marks, and begin a comment with ##",
             row.cells[0]
-        ));
+        )));
     }
-    rows.extend(hashed);
+    sensors.extend(hashed);
     by_mode
         .iter()
         .flatten()
         .try_for_each(|row| row.check_columns(&header, false))?;
-    rows.iter()
+    sensors
+        .iter()
         .try_for_each(|row| row.check_columns(&header, true))?;
-    let Header {
-        titles,
-        modes,
-        first,
-        deviations,
-    } = header;
-    let list = |place: usize| {
-        by_mode[place]
-            .as_ref()
-            .map(|row: &TestRow| row.numbers(&modes))
-            .transpose()
-    };
-    let mut data = TestData {
-        frequencies_hz: list(0)?.ok_or_else(|| missing("a row frequency_hz"))?,
-        ..TestData::default()
-    };
-    (data.frequency_deviation, data.shape_deviation) = (list(1)?, list(2)?);
-    if first != 1 {
-        data.numbers = (first..first + modes.len()).collect();
-    }
-    data.phase_collinearity = list(3)?.unwrap_or_default();
-    let is_empty = |row: &TestRow, column: usize| row.cell(Some(column)).is_empty();
-    let (alone, shaped): (Vec<usize>, Vec<usize>) =
-        (0..modes.len()).partition(|&mode| rows.iter().all(|row| is_empty(row, modes[mode])));
-    let columns: Vec<usize> = shaped.iter().map(|&mode| modes[mode]).collect();
-    data.shapes = DMatrix::zeros(rows.len(), modes.len());
-    let mut whole = Vec::new();
-    for row in &rows {
-        let (sensor, sign) = row.sensor(&titles)?;
-        if let Some(mode) = shaped.iter().find(|&&mode| is_empty(row, modes[mode])) {
-            data.incomplete
-                .push(format!("{} (mode {})", sensor.name, first + mode));
-            continue;
-        }
-        for (&mode, value) in shaped.iter().zip(row.numbers(&columns)?) {
-            data.shapes[(whole.len(), mode)] = sign * value;
-        }
-        data.sensors.push(sensor);
-        whole.push(row);
-    }
-    if whole.is_empty() && !rows.is_empty() {
-        return Err(missing("a sensor with a reading in every mode"));
-    }
-    data.shapes.resize_vertically_mut(whole.len(), 0.0);
-    for (mode, column) in deviations
-        .into_iter()
-        .filter(|(mode, _)| !alone.contains(mode))
-    {
-        let values = whole.iter().map(|row| Ok(row.numbers(&[column])?[0]));
-        let values: Vec<f64> = values.collect::<Result<_, FileError>>()?;
-        data.component_deviation
-            .insert(mode, DVector::from_vec(values));
-    }
-    data.alone = alone;
-    Ok(data)
+    Ok((by_mode, header, sensors))
 }
 
 /// The separator of a line's cells.
-pub(crate) fn separator(line: &str) -> char {
+pub fn separator(line: &str) -> char {
     ['\t', ';']
         .into_iter()
         .find(|separator| line.contains(*separator))
@@ -371,7 +388,7 @@ pub(crate) fn separator(line: &str) -> char {
 }
 
 /// Cuts a line at its separators, those within quotation marks excepted.
-pub(crate) fn cells(line: &str, separator: char) -> Vec<String> {
+pub fn cells(line: &str, separator: char) -> Vec<String> {
     let last = line.matches('"').count();
     let mut cells = vec![String::new()];
     for (number, part) in line.split('"').enumerate() {
@@ -387,6 +404,6 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<String> {
 }
 
 /// A name as one cell that no spreadsheet takes for a formula.
-pub(crate) fn quoted(name: &str) -> String {
+pub fn quoted(name: &str) -> String {
     format!("\"{}\"", inert(name).replace('"', "\"\""))
 }

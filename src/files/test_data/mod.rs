@@ -12,10 +12,9 @@ mod universal_block;
 pub(crate) use csv::{cells, quoted, separator};
 
 use crate::files::deck::number::real;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, ensure};
 use crate::files::text::{decoded, readable};
-use crate::method::error::{Error, at_least_one, check_count, positive, require};
-use crate::method::linear_algebra::{check_length, check_shape};
+use crate::method::error::{Error, at_least_one, positive};
 use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -24,6 +23,16 @@ use std::collections::{BTreeMap, HashSet};
 /// Names of directions 0 to 5.
 #[doc(hidden)]
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// Names of sensors of these directions, in errors.
+const SENSORS: [&str; 6] = [
+    "sensor x",
+    "sensor y",
+    "sensor z",
+    "sensor rx",
+    "sensor ry",
+    "sensor rz",
+];
 
 /// Forms of a direction, in errors.
 pub(crate) const DIRECTION: &str = "a direction x, y, z, rx, ry or rz, 1 to 6, or UX to UZ and RX to RZ or ROTX to ROTZ, with a sign or without";
@@ -37,8 +46,10 @@ pub(crate) fn direction(word: &str) -> Option<(usize, f64)> {
     let letters = bare.strip_prefix('u').unwrap_or(bare).replace("rot", "r");
     let by_name = DIRECTIONS.iter().position(|name| *name == letters);
     let by_number = bare.parse().ok().filter(|own| (1..=6).contains(own));
-    let found = by_name.or(by_number.map(|own: usize| own - 1));
-    found.filter(|_| is_signed_once).map(|own| (own, sign))
+    by_name
+        .or(by_number.map(|own: usize| own - 1))
+        .filter(|_| is_signed_once)
+        .map(|own| (own, sign))
 }
 
 /// Name of a row of a matrix: its grid and direction, or its number where rows have no names.
@@ -101,82 +112,46 @@ pub struct TestData {
 }
 
 impl TestData {
-    /// Checks that these data can be a test.
-    ///
-    /// # Errors
-    /// [`Error::Count`] without modes; [`Error::WrongShape`] unless there are as many values as sensors and modes;
-    /// [`Error::Value`] for numbers; [`Error::Count`] for a direction above 5;
-    /// [`Error::Duplicate`] naming direction and grid of a sensor that is there twice.
-    pub fn check(&self) -> Result<(), Error> {
-        let count = self.frequencies_hz.len();
-        check_shape("test mode shapes", &self.shapes, self.sensors.len(), count)?;
-        let vibrations = || (0..count).filter(|mode| !self.rigid.contains(mode));
-        for mode in vibrations() {
-            let owner = || format!("test mode {mode} (from zero)");
-            positive("frequency", owner, self.frequencies_hz[mode])?;
+    /// Refuses what a file can say and no test can have: negative frequencies and deviations, shapes that are zero, no mode, and a sensor twice.
+    fn check(&self) -> Result<(), Error> {
+        let of_mode = |mode: usize| move || format!("test mode {mode} (from zero)");
+        let (vibrations, shaped) = (self.vibrations(), self.shaped());
+        for mode in vibrations.iter().map(|number| number - 1) {
+            positive("frequency", of_mode(mode), self.frequencies_hz[mode])?;
         }
-        let shaped = self.shaped();
-        if let (Some(_), shapes) = (shaped.first(), self.shapes.select_columns(&shaped)) {
-            let hertz: Vec<f64> = shaped
-                .iter()
-                .map(|&mode| self.frequencies_hz[mode])
-                .collect();
-            Modes::from_measured(&hertz, &shapes)?;
+        if !shaped.is_empty() {
+            let hertz = shaped.iter().map(|&mode| self.frequencies_hz[mode]);
+            let shapes = self.shapes.select_columns(&shaped);
+            Modes::from_measured(&hertz.collect::<Vec<_>>(), &shapes)?;
         }
-        at_least_one("test modes", vibrations().count())?;
+        at_least_one("test modes", vibrations.len())?;
         let mut seen = HashSet::new();
-        for (row, sensor) in self.sensors.iter().enumerate() {
-            let numbers = sensor.place.iter().chain(&sensor.axis).flatten();
-            if let Some((column, &value)) =
-                numbers.enumerate().find(|(_, value)| !value.is_finite())
-            {
-                let owner = || format!("sensor {row} (from zero), number {column}");
-                require(false, "place or axis", owner, value, "a finite number")?;
-            }
-            let names = [
-                "sensor x",
-                "sensor y",
-                "sensor z",
-                "sensor rx",
-                "sensor ry",
-                "sensor rz",
-            ];
-            check_count("direction", sensor.direction, 0, names.len() - 1)?;
-            let what = names[sensor.direction];
-            if let Some(label) = sensor
-                .grid
-                .filter(|grid| !seen.insert((*grid, sensor.direction)))
-            {
+        for sensor in &self.sensors {
+            let what = SENSORS[sensor.direction];
+            if let Some(label) = sensor.grid {
                 let owner = "test".into();
-                return Err(Error::Duplicate { owner, what, label });
+                ensure(seen.insert((label, what)), || Error::Duplicate {
+                    owner,
+                    what,
+                    label,
+                })?;
             }
         }
-        let lists = [
+        for (what, list) in [
             ("frequency deviation", &self.frequency_deviation),
             ("shape deviation", &self.shape_deviation),
-        ];
-        for (what, list) in lists
-            .into_iter()
-            .filter_map(|(what, list)| Some((what, list.as_ref()?)))
-        {
-            check_length(what, list.len(), count)?;
-            for (mode, &value) in list.iter().enumerate() {
-                positive(what, || format!("test mode {mode} (from zero)"), value)?;
+        ] {
+            for (mode, &value) in list.iter().flatten().enumerate() {
+                positive(what, of_mode(mode), value)?;
             }
         }
         for (mode, deviations) in &self.component_deviation {
-            check_length("component deviation", deviations.len(), self.sensors.len())?;
             for (sensor, &value) in deviations.iter().enumerate() {
                 let owner = || format!("test mode {mode} at sensor {sensor} (from zero)");
                 positive("component deviation", owner, value)?;
             }
         }
-        let phases = self.phase_collinearity.len();
-        check_length(
-            "phase collinearity",
-            phases,
-            if phases == 0 { 0 } else { count },
-        )
+        Ok(())
     }
 
     /// Numbers of the modes, from one, that are no rigid-body modes.
@@ -197,13 +172,15 @@ impl TestData {
 /// Reads a test from the bytes of a file that errors call `name`: a Universal File when its first line is `-1`, otherwise CSV.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] names file and line; the errors of [`TestData::check`].
+/// [`FileError::DeckLine`] names file and line; [`Error::Value`], [`Error::Count`] and [`Error::Duplicate`] for what no test can have: a
+/// negative frequency or deviation, a shape that is zero, no mode, a sensor twice.
 pub fn read(name: &str, bytes: &[u8]) -> Result<TestData, FileError> {
     // A Universal File may hold datasets in binary.
     let is_marked = bytes.trim_ascii_start().starts_with(b"-1");
-    let text = match is_marked {
-        true => decoded(bytes),
-        false => readable(name, bytes)?,
+    let text = if is_marked {
+        decoded(bytes)
+    } else {
+        readable(name, bytes)?
     };
     let first = text.lines().map(str::trim).find(|line| !line.is_empty());
     let mut data = if first == Some("-1") {

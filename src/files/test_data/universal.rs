@@ -20,8 +20,7 @@
 use super::universal_axes::{ROTATION, Systems, by_matrices, by_points};
 use super::universal_block::{Block, INTEGER, LONG_REAL, REAL, VALUES, integer};
 use super::{Sensor, TestData, default_name};
-use crate::files::axes::Axes;
-use crate::files::error::FileError;
+use crate::files::error::{FileError, ensure};
 use crate::files::test_data::complex_modes::realize;
 use nalgebra::{Complex, DMatrix, Vector3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -60,7 +59,7 @@ fn is_mark(line: &str) -> bool {
     line.trim_end() == "    -1"
 }
 
-pub(super) fn read(file: &str, text: &str) -> Result<TestData, FileError> {
+pub fn read(file: &str, text: &str) -> Result<TestData, FileError> {
     let lines: Vec<&str> = text.lines().collect();
     let wrong = |at, what| FileError::at(file, &lines, at, what);
     let (mut found, mut at) = (FoundModes::default(), 0);
@@ -168,8 +167,13 @@ impl FoundModes {
         };
         self.data.units = Some(words.trim().to_owned());
         let factors = block.reals("three factors of units", &[LONG_REAL; 3])?;
-        let code = line.chars().take(INTEGER).collect::<String>();
-        let code = code.trim().parse::<usize>().unwrap_or_default();
+        let code = line
+            .chars()
+            .take(INTEGER)
+            .collect::<String>()
+            .trim()
+            .parse::<usize>()
+            .unwrap_or_default();
         let known = LENGTHS.iter().find(|(codes, _)| codes.contains(&code));
         self.data.lengths_to_meter = known.map(|(_, length)| [factors[0], *length]);
         Ok(())
@@ -188,81 +192,57 @@ impl FoundModes {
         let codes = block.integers("the six codes of a mode", 6)?;
         let [analysis, characteristic, specific, data_type, count] =
             [1, 2, 3, 4, 5].map(|place| codes[place]);
-        if ![2, 3, 7].contains(&analysis)
-            || ![2, 3].contains(&characteristic)
-            || !SHAPES.contains(&specific)
-            || !is_at_nodes
-        {
+        let is_mode = [2, 3, 7].contains(&analysis) && [2, 3].contains(&characteristic);
+        if !is_mode || !SHAPES.contains(&specific) || !is_at_nodes {
             self.data.skipped.push(dataset);
             return Ok(());
         }
-        if self
-            .of_modes
-            .replace(dataset)
-            .is_some_and(|other| other != dataset)
-        {
-            return Err(block.wrong(
-                "the file has modes in datasets 55 and 2414, perhaps the same ones; keep those of one",
-            ));
-        }
-        if count != 3 * (characteristic - 1) || ![2, 4, 5, 6].contains(&data_type) {
-            return Err(block.wrong(format!(
+        let other = self.of_modes.replace(dataset);
+        ensure(other.is_none_or(|other| other == dataset), || {
+            block.wrong("the file has modes in datasets 55 and 2414, perhaps the same ones; keep those of one")
+        })?;
+        ensure(
+            count == 3 * (characteristic - 1) && [2, 4, 5, 6].contains(&data_type),
+            || {
+                block.wrong(format!(
                 "a mode has three or six values a node, real (2, or 4 of double precision) or complex (5, 6), not characteristic \
                  {characteristic}, {count} values of type {data_type}"
-            )));
-        }
-        let columns: &[usize] = match data_type {
-            4 | 6 => &[LONG_REAL; 3],
-            _ => &VALUES,
-        };
+            ))
+            },
+        )?;
         let line = block.line("the integers that describe a mode")?;
         // Behind a load case in dataset 55, and behind five sets and cases in 2414.
         let place = if is_analysis { 5 } else { 3 };
         let number = line.split_whitespace().nth(place);
         let number = number.and_then(|number| number.parse().ok());
-        let what = "a frequency, or a complex eigenvalue";
-        let root = if is_analysis {
-            block.line("the integers that describe a mode")?;
-            let lines = [
-                block.reals(what, &VALUES[..2])?,
-                block.reals(what, &VALUES[..2])?,
-            ];
-            if analysis == 2 {
-                vec![lines[0][1]]
-            } else {
-                lines[1].clone()
-            }
-        } else {
-            block.reals(what, &VALUES[..if analysis == 2 { 1 } else { 2 }])?
+        let Some(frequency) = frequency(block, is_analysis, analysis == 2)? else {
+            return Ok(());
         };
-        let frequency = match root[..] {
-            [_, imaginary] if imaginary < 0.0 => return Ok(()),
-            [real, imaginary] => real.hypot(imaginary) / (2.0 * PI),
-            _ => root[0],
-        };
-        if frequency < 0.0 {
-            return Err(block.is_not(frequency, "a frequency, zero of a rigid-body mode"));
-        }
         let omega = 2.0 * PI * frequency;
         // A rigid-body mode has the frequency zero and is not compared: its shape needs no scale.
-        let divisor = match frequency == 0.0 {
-            true => 1.0,
-            false => [1.0, omega, -omega * omega][specific.saturating_sub(10)],
+        let divisor = if frequency == 0.0 {
+            1.0
+        } else {
+            [1.0, omega, -omega * omega][specific.saturating_sub(10)]
+        };
+        let parts = if data_type > 4 { 2 } else { 1 };
+        let columns: &[usize] = match data_type {
+            4 | 6 => &[LONG_REAL; 3],
+            _ => &VALUES,
         };
         let mut shape = BTreeMap::new();
-        let parts = if data_type > 4 { 2 } else { 1 };
         while !block.is_done() {
             let node = block.integers("the number of a node", 1)?[0];
-            let mut values = Vec::with_capacity(parts * count);
+            let mut values = Vec::new();
             while values.len() < parts * count {
                 let widths = &columns[..(parts * count - values.len()).min(columns.len())];
                 values.extend(block.reals("a line of a mode's values", widths)?);
             }
             for (direction, value) in values.chunks(parts).enumerate() {
                 let value = Complex::new(value[0], value.get(1).copied().unwrap_or(0.0)) / divisor;
-                if shape.insert((node, direction), value).is_some() {
-                    return Err(block.wrong(format!("node {node} is in this mode twice")));
-                }
+                ensure(shape.insert((node, direction), value).is_none(), || {
+                    block.wrong(format!("node {node} is in this mode twice"))
+                })?;
             }
         }
         self.complex |= parts == 2;
@@ -273,97 +253,48 @@ impl FoundModes {
     }
 
     fn into_data(mut self, file: &str) -> Result<TestData, FileError> {
-        if self.shapes.is_empty() {
-            let of_other = |dataset: &usize| {
-                let is_data = [55, 2414].contains(dataset);
-                let about = if is_data {
-                    " of other data than modes at nodes"
-                } else {
-                    ""
-                };
-                format!("{dataset}{about}")
+        ensure(!self.shapes.is_empty(), || {
+            let of_other = |dataset: &usize| match dataset {
+                55 | 2414 => format!("{dataset} of other data than modes at nodes"),
+                _ => dataset.to_string(),
             };
             let datasets: Vec<String> = self.datasets.iter().map(of_other).collect();
             let datasets = datasets.join(", ");
-            return Err(FileError::refused(
-                file,
-                format!(
-                    "no mode shapes; they are in datasets 55 or 2414, and this file has {datasets}"
-                ),
-            ));
-        }
-        let values = self
+            let reason = format!(
+                "no mode shapes; they are in datasets 55 or 2414, and this file has {datasets}"
+            );
+            FileError::refused(file, reason)
+        })?;
+        let measured: BTreeSet<(usize, usize)> = self
             .shapes
             .iter()
             .flatten()
-            .filter(|(_, value)| **value != Complex::default());
-        let measured: BTreeSet<(usize, usize)> = values.map(|(key, _)| *key).collect();
-        let is_complete =
-            |key: &(usize, usize)| self.shapes.iter().all(|shape| shape.contains_key(key));
+            .filter(|(_, value)| **value != Complex::default())
+            .map(|(key, _)| *key)
+            .collect();
+        let is_complete = |key: &_| self.shapes.iter().all(|shape| shape.contains_key(key));
         let (keys, incomplete): (Vec<_>, Vec<_>) = measured.into_iter().partition(is_complete);
-        if keys.is_empty() && !incomplete.is_empty() {
-            return Err(FileError::refused(
+        ensure(!keys.is_empty() || incomplete.is_empty(), || {
+            FileError::refused(
                 file,
                 "no node and direction is in every mode; remove the modes with other nodes",
-            ));
-        }
+            )
+        })?;
         let incomplete = incomplete.into_iter();
         self.data.incomplete = incomplete.map(|(node, d)| default_name(node, d)).collect();
         let value = |row: usize, mode: usize| self.shapes[mode][&keys[row]];
         let shapes = DMatrix::from_fn(keys.len(), self.shapes.len(), value);
-        let data = &mut self.data;
-        (data.shapes, data.phase_collinearity) = if self.complex {
+        let (shapes, phases) = if self.complex {
             realize(&shapes)?
         } else {
             (shapes.map(|value| value.re), Vec::new())
         };
-        for (node, direction) in keys {
-            let at = self.nodes.get(&node);
-            let [of_place, of_motion] = [0, 1].map(|which| self.systems.get(&at?.1[which]));
-            for (number, line) in at
-                .iter()
-                .flat_map(|(_, both, line)| both.map(|number| (number, *line)))
-            {
-                let is_global = number < 2 && !self.systems.contains_key(&number);
-                if !is_global && self.systems.get(&number).is_none_or(|own| own.kind > 1) {
-                    let reason = format!(
-                        "node {node} has coordinate system {number}, which is no Cartesian or cylindrical one of a dataset 18 or 2420 of \
-                         the file"
-                    );
-                    return Err(FileError::line(file, line, reason));
-                }
-            }
-            let to_global = |place| of_place.map_or(place, |axes| axes.place(place));
-            // Components below the file's six digits are round-off: snap them to zero.
-            let snapped = |component: f64| {
-                if component.abs() < ROTATION {
-                    0.0
-                } else {
-                    component
-                }
-            };
-            let (name, place) = (
-                default_name(node, direction),
-                at.map(|(place, ..)| to_global(*place)),
-            );
-            let along = |axes: &Axes| {
-                let own = axes.directions(place.unwrap_or_default(), ROTATION);
-                let own = own.ok_or_else(|| {
-                    let reason =
-                        format!("node {node} is on the axis of its cylindrical coordinate system");
-                    FileError::line(file, at.map_or(1, |(.., line)| *line), reason)
-                })?;
-                Ok::<_, FileError>(own.column(direction % 3).map(snapped).normalize())
-            };
-            let axis = of_motion.map(along).transpose()?;
-            data.sensors.push(Sensor {
-                name,
-                grid: Some(node),
-                direction,
-                axis,
-                place,
-            });
-        }
+        let sensors = keys
+            .iter()
+            .map(|(node, direction)| self.sensor(file, *node, *direction));
+        self.data.sensors = sensors.collect::<Result<_, _>>()?;
+        let data = &mut self.data;
+        (data.shapes, data.phase_collinearity) = (shapes, phases);
         // Numbers that are no others than the places, or that do not tell modes apart, say nothing.
         let once: BTreeSet<usize> = data.numbers.iter().copied().collect();
         let are_places = data.numbers.iter().copied().eq(1..=data.numbers.len());
@@ -374,4 +305,67 @@ impl FoundModes {
         data.skipped.dedup();
         Ok(self.data)
     }
+
+    /// The sensor of a node and a direction: its place and its axis in the global coordinate system.
+    fn sensor(&self, file: &str, node: usize, direction: usize) -> Result<Sensor, FileError> {
+        let mut sensor = Sensor {
+            name: default_name(node, direction),
+            grid: Some(node),
+            direction,
+            axis: None,
+            place: None,
+        };
+        let Some((place, systems, line)) = self.nodes.get(&node) else {
+            return Ok(sensor);
+        };
+        let wrong = |reason: String| FileError::line(file, *line, format!("node {node} {reason}"));
+        let [of_place, of_motion] = systems.map(|number| self.systems.get(&number));
+        for number in systems {
+            let own = self.systems.get(number);
+            ensure(own.map_or(*number < 2, |own| own.kind < 2), || {
+                wrong(format!(
+                    "has coordinate system {number}, which is no Cartesian or cylindrical one of a dataset 18 or 2420 of the file"
+                ))
+            })?;
+        }
+        let place = of_place.map_or(*place, |axes| axes.place(*place));
+        sensor.place = Some(place);
+        if let Some(axes) = of_motion {
+            let on_axis =
+                || wrong("is on the axis of its cylindrical coordinate system".to_owned());
+            let own = axes.directions(place, ROTATION).ok_or_else(on_axis)?;
+            let axis = own.column(direction % 3);
+            // Components below the file's six digits are round-off: snap them to zero.
+            let snapped = axis.map(|own| if own.abs() < ROTATION { 0.0 } else { own });
+            sensor.axis = Some(snapped.normalize());
+        }
+        Ok(sensor)
+    }
+}
+
+/// The frequency of a mode, from its own number or from a complex eigenvalue; none of an eigenvalue whose conjugate is read.
+fn frequency(
+    block: &mut Block,
+    is_analysis: bool,
+    is_real: bool,
+) -> Result<Option<f64>, FileError> {
+    let what = "a frequency, or a complex eigenvalue";
+    let mut root;
+    if is_analysis {
+        block.line("the integers that describe a mode")?;
+        root = block.reals(what, &VALUES[..2])?;
+        let second = block.reals(what, &VALUES[..2])?;
+        root = if is_real { vec![root[1]] } else { second };
+    } else {
+        root = block.reals(what, &VALUES[..if is_real { 1 } else { 2 }])?;
+    }
+    let frequency = match root[..] {
+        [_, imaginary] if imaginary < 0.0 => return Ok(None),
+        [real, imaginary] => real.hypot(imaginary) / (2.0 * PI),
+        _ => root[0],
+    };
+    ensure(frequency >= 0.0, || {
+        block.is_not(frequency, "a frequency, zero of a rigid-body mode")
+    })?;
+    Ok(Some(frequency))
 }

@@ -7,24 +7,26 @@ use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
 /// Deviation from a rotation that a matrix may have: the round-off of six digits.
-pub(super) const ROTATION: f64 = 1e-4;
+pub const ROTATION: f64 = 1e-4;
 
 /// Coordinate systems by their numbers; 0, and 1 if it is not there, are the global axes.
-pub(super) type Systems = BTreeMap<usize, Axes>;
+pub type Systems = BTreeMap<usize, Axes>;
 
 /// Dataset 18: origin, a point on the x axis and one in the xz plane, in an earlier system or in the global one, number zero.
-pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), FileError> {
+pub fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), FileError> {
     while !block.is_done() {
         let numbers = block.integers("the number, type and reference of a coordinate system", 3)?;
-        let what = "zero or the number of a Cartesian coordinate system before this one";
         let base = if numbers[2] == 0 {
             Some(&Axes::GLOBAL)
         } else {
             systems.get(&numbers[2])
         };
-        let base = *base
-            .filter(|base| base.kind == 0)
-            .ok_or_else(|| block.is_not(numbers[2], what))?;
+        let base = *base.filter(|base| base.kind == 0).ok_or_else(|| {
+            block.is_not(
+                numbers[2],
+                "zero or the number of a Cartesian coordinate system before this one",
+            )
+        })?;
         block.line("the name of a coordinate system")?;
         let mut points = block.reals("an origin and a point on the x axis", &VALUES)?;
         points.extend(block.reals("a point in the xz plane", &VALUES[..3])?);
@@ -36,8 +38,9 @@ pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), 
             .try_normalize(0.0)
             .ok_or_else(|| block.wrong("the point on the x axis is the origin"))?;
         let z = along(6) - x * x.dot(&along(6));
-        let z = z.try_normalize(ROTATION * along(6).norm());
-        let z = z.ok_or_else(|| block.wrong("the point in the xz plane is on the x axis"))?;
+        let z = z
+            .try_normalize(ROTATION * along(6).norm())
+            .ok_or_else(|| block.wrong("the point in the xz plane is on the x axis"))?;
         let rotation = Matrix3::from_columns(&[x, z.cross(&x), z]);
         systems.insert(
             numbers[0],
@@ -52,7 +55,7 @@ pub(super) fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), 
 }
 
 /// Dataset 2420: the rows of a matrix are unit vectors along the axes, and the origin.
-pub(super) fn by_matrices(block: &mut Block, systems: &mut Systems) -> Result<(), FileError> {
+pub fn by_matrices(block: &mut Block, systems: &mut Systems) -> Result<(), FileError> {
     block.line("the number of a part")?;
     block.line("the name of a part")?;
     while !block.is_done() {

@@ -4,13 +4,13 @@ use super::real;
 use crate::files::error::{FileError, is_not};
 
 /// Columns of a record of node numbers or codes, of one of values, of a line of these.
-pub(super) const INTEGER: usize = 10;
-pub(super) const REAL: usize = 13;
-pub(super) const LONG_REAL: usize = 25;
-pub(super) const VALUES: [usize; 6] = [REAL; 6];
+pub const INTEGER: usize = 10;
+pub const REAL: usize = 13;
+pub const LONG_REAL: usize = 25;
+pub const VALUES: [usize; 6] = [REAL; 6];
 
 /// The lines of one dataset that are still to be read.
-pub(super) struct Block<'a> {
+pub struct Block<'a> {
     file: &'a str,
     lines: &'a [&'a str],
     /// Number of the next line in the file, from one.
@@ -27,7 +27,7 @@ impl<'a> Block<'a> {
         }
     }
 
-    pub(crate) fn is_done(&self) -> bool {
+    pub fn is_done(&self) -> bool {
         self.lines.iter().all(|line| line.trim().is_empty())
     }
 
@@ -40,7 +40,7 @@ impl<'a> Block<'a> {
     }
 
     /// The number in the file of the line read last.
-    pub(crate) fn last_number(&self) -> usize {
+    pub fn last_number(&self) -> usize {
         self.number - 1
     }
 
@@ -49,7 +49,7 @@ impl<'a> Block<'a> {
         FileError::line(self.file, self.last_number(), reason)
     }
 
-    pub(crate) fn is_not(&self, found: impl ToString, what: &str) -> FileError {
+    pub fn is_not(&self, found: impl ToString, what: &str) -> FileError {
         self.wrong(is_not(&found.to_string(), what))
     }
 
@@ -87,8 +87,7 @@ impl<'a> Block<'a> {
     }
 
     pub fn integers(&mut self, what: &str, count: usize) -> Result<Vec<usize>, FileError> {
-        let numbers = self.reals(what, &[INTEGER].repeat(count))?;
-        numbers
+        self.reals(what, &[INTEGER].repeat(count))?
             .into_iter()
             .map(|number| integer(number).ok_or_else(|| self.is_not(number, what)))
             .collect()
@@ -100,15 +99,16 @@ fn is_cut(column: &str, rest: &str) -> bool {
     let is_digit = |own: char| own.is_ascii_digit();
     let mantissa = column.trim_end_matches(is_digit);
     let unsigned = mantissa.trim_end_matches(['+', '-']);
-    let is_exponent = match unsigned.len() < mantissa.len() {
-        true => unsigned.ends_with(|own: char| is_digit(own) || "eEdD.".contains(own)),
-        false => unsigned.ends_with(['e', 'E', 'd', 'D']),
+    let is_exponent = if unsigned.len() < mantissa.len() {
+        unsigned.ends_with(|own: char| is_digit(own) || "eEdD.".contains(own))
+    } else {
+        unsigned.ends_with(['e', 'E', 'd', 'D'])
     };
     let digits = column.len() - mantissa.len();
     digits > 0 && rest.starts_with(is_digit) && !(is_exponent && digits > 1)
 }
 
 /// A whole number from zero up.
-pub(super) fn integer(number: f64) -> Option<usize> {
+pub fn integer(number: f64) -> Option<usize> {
     ((0.0..1e15).contains(&number) && number.fract() == 0.0).then_some(number as usize)
 }
