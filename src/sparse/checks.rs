@@ -1,9 +1,8 @@
 //! Small pieces that several parts of the room share.
 
-use super::random::random_block;
 use crate::method::error::Error;
 use crate::method::linear_algebra::{
-    as_faer, check_finite, check_length, from_faer, symmetric_eigen, symmetric_part,
+    as_faer, check_finite, from_faer, symmetric_eigen, symmetric_part,
 };
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::linalg::matmul::matmul;
@@ -13,39 +12,6 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, Par, Side};
 use nalgebra::{DMatrix, DVector};
 use std::borrow::Borrow;
-
-/// Checks a factorization of a symmetric matrix $A$ by the solution $y$ that it found of $A y = b$, to
-///
-/// $$ \lVert A y - b \rVert \le 10^4 \varepsilon \sqrt n \lVert y \rVert $$
-///
-/// which is the round-off of a stable solver with room for its constant, where $A$ (n × n) has unit diagonal and some tens of
-/// entries in a row. `product` is $A y$; `loads` are $b = A x$ of a probe $x$.
-///
-/// # Errors
-/// [`Error::Failed`] with the residual; [`Error::WrongShape`] for a solution of another length.
-pub fn check_solution(
-    what: &'static str,
-    product: impl Fn(&DVector<f64>) -> DVector<f64>,
-    loads: &DVector<f64>,
-    found: &DVector<f64>,
-) -> Result<(), Error> {
-    check_length(what, found.len(), loads.len())?;
-    let (residual, size) = ((product(found) - loads).norm(), loads.norm());
-    let allowed = 1e4 * f64::EPSILON * (loads.len() as f64).sqrt() * found.norm();
-    let (residual, allowed) = (residual / size, allowed / size);
-    if residual <= allowed {
-        Ok(())
-    } else {
-        let why =
-            format!("the solution leaves {residual:.1e} of its loads, more than {allowed:.1e}");
-        Err(Error::Failed { what, why })
-    }
-}
-
-/// A unit vector with no symmetry, always the same.
-pub(crate) fn start_vector(size: usize) -> DVector<f64> {
-    random_block(size, 1, &mut 0).column(0).normalize()
-}
 
 /// Indices of values above a limit. NaN is not above it.
 pub(crate) fn places_above(numbers: &DVector<f64>, limit: f64) -> Vec<usize> {

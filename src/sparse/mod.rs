@@ -29,10 +29,9 @@ pub(crate) use assurance::cosines;
 #[doc(hidden)]
 pub use assurance::modal_assurance;
 #[doc(hidden)]
-pub use checks::check_solution;
 pub(crate) use checks::{
-    finite, gram, inverse_of_positive, places_above, solve_lower, solve_positive, start_vector,
-    take_product, transposed_product,
+    finite, gram, inverse_of_positive, places_above, solve_lower, solve_positive, take_product,
+    transposed_product,
 };
 pub use factorization::{Factor, Work};
 pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS};

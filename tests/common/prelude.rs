@@ -160,7 +160,7 @@ pub use corfem::{
     sparse::{
         BasisSize, CountedModes, FINITE, Factor, MOST_DENSE_ROWS, ModeWeight, Pair,
         ParameterMatrix, RigidBodies, SensorModel, SparseMatrix, Support, WholeModel,
-        WholeParameter, WholeShare, check_solution,
+        WholeParameter, WholeShare,
         elements::{corner_volumes, lumped_masses, support},
         modal_assurance, normalize_with_mass,
         random::split_mix_64,

@@ -8,8 +8,8 @@ pub use plan::Work;
 
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_shape;
+use crate::sparse::SparseMatrix;
 use crate::sparse::finite;
-use crate::sparse::{SparseMatrix, check_solution, start_vector};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
@@ -27,9 +27,7 @@ use std::sync::Arc;
 /// definite matrix this is Cholesky's factor $L D^{1/2}$.
 ///
 /// Rows are not exchanged, so that the pivots of an indefinite matrix may be small with large numbers below them, which take digits
-/// from all that follows. Every factor therefore solves its own scaled matrix for a probe before it is handed out: the residual
-/// ([`check_solution`]) must be that of a matrix within $10^4 \varepsilon \sqrt n$ of it. No eigenvalue beyond that distance from zero
-/// changes its sign on the way from one matrix to the other, so that the signs of the pivots count them right.
+/// from all that follows.
 #[derive(Debug, Clone)]
 pub struct Factor {
     plan: Arc<FactorizationPlan>,
@@ -49,8 +47,8 @@ impl Factor {
     /// Factorizes a symmetric matrix (both triangles given), which may be indefinite.
     ///
     /// # Errors
-    /// [`Error::NotPositiveDefinite`] naming a row without entries or where a pivot vanishes; [`Error::Failed`] when the
-    /// factor does not solve its own matrix; the errors of [`SparseMatrix::check_symmetric`].
+    /// [`Error::NotPositiveDefinite`] naming a row without entries or where a pivot vanishes; the errors of
+    /// [`SparseMatrix::check_symmetric`].
     pub fn new(what: &'static str, matrix: &SparseMatrix) -> Result<Self, Error> {
         matrix.check_symmetric(what)?;
         let plan = Arc::new(FactorizationPlan::of_sum(&[matrix])?);
@@ -73,18 +71,12 @@ impl Factor {
             let row = plan.order[at];
             return Err(Error::NotPositiveDefinite { what, row });
         }
-        let factor = Self {
+        Ok(Self {
             plan: Arc::clone(plan),
             values,
             scale,
             pivots,
-        };
-        // A factor that does not solve its own scaled matrix is refused.
-        let product = |x: &DVector<f64>| plan.times(&entries, x);
-        let loads = product(&start_vector(factor.scale.len()));
-        let found = factor.solved(DMatrix::from_rows(&[loads.transpose()]));
-        check_solution(what, product, &loads, &found.row(0).transpose())?;
-        Ok(factor)
+        })
     }
 
     /// Rows in the order in which they are eliminated.
@@ -210,14 +202,6 @@ impl Factor {
                 Par::Seq,
             );
         }
-    }
-
-    /// The solutions of the scaled problem for rows of loads, both in the order of elimination.
-    fn solved(&self, mut loads: DMatrix<f64>) -> DMatrix<f64> {
-        let count = loads.nrows();
-        self.forward(loads.as_mut_slice(), count, &vec![true; self.scale.len()]);
-        self.backward(loads.as_mut_slice(), count);
-        loads
     }
 
     /// Refuses a matrix with a negative pivot.

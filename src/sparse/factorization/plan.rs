@@ -172,21 +172,6 @@ impl FactorizationPlan {
         (&self.pattern.row_idx()[range.clone()], range)
     }
 
-    /// The product of the matrix of given entries with a vector.
-    pub(super) fn times(&self, entries: &[f64], x: &DVector<f64>) -> DVector<f64> {
-        let mut product = DVector::zeros(x.len());
-        for column in 0..x.len() {
-            let (rows, range) = self.column(column);
-            product[column] += entries[range.start] * x[column];
-            // The diagonal comes first.
-            for (&row, entry) in rows.iter().zip(&entries[range]).skip(1) {
-                product[row] += entry * x[column];
-                product[column] += entry * x[row];
-            }
-        }
-        product
-    }
-
     /// Scales entries so that those of the diagonal become one in size, and returns the scale.
     pub(super) fn scale(&self, entries: &mut [f64]) -> DVector<f64> {
         let size = |column: usize| match entries[self.pattern.col_ptr()[column]] {

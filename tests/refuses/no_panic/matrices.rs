@@ -107,12 +107,6 @@ pub const MATRICES: &[Entry] = &[
     ("linear_algebra::check_length", |d| {
         check_length("list", d.size(), d.size()).map(|()| Vec::new())
     }),
-    ("checks::check_solution", |d| {
-        let size = d.size();
-        let (matrix, loads, of_found) = (d.matrix(size, size), d.vector(size), d.about(size));
-        let found = d.vector(of_found);
-        check_solution("matrix", |x| &matrix * x, &loads, &found).map(|()| Vec::new())
-    }),
     ("Modes::frequencies_hz", |d| {
         let (size, count) = (d.size(), d.size());
         let frequencies = d.list(count);
