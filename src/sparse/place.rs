@@ -5,7 +5,7 @@ use super::lowest_modes::{FINITE, Flexibility};
 use super::random::random_block;
 use super::residual_vectors::{leading_loads, residual_vectors};
 use super::share::{ParameterMatrix, WholeShare};
-use super::visibility::{open_parts, visible};
+use super::visibility::{open_parts, told, visible};
 use super::{SparseMatrix, WholeModel, no_modes, take_product, transposed_product};
 use crate::method::error::{Error, check_count};
 use crate::method::linear_algebra::symmetric_part;
@@ -113,7 +113,9 @@ impl Place {
         let modes = modes.select(&(0..found.seen).collect::<Vec<_>>());
         let shapes = vibrations.shapes.columns(0, found.seen).transpose();
         let shares = whole.parts().zip(factors);
-        let shares = shares.map(|((share, _), &factor)| share.seen_by(factor, &shapes));
+        let shares = shares.map(|((share, _), &factor)| {
+            told(share.seen_by(factor, &shapes)?, factor, share, &vibrations)
+        });
         Ok(Self {
             modes,
             shares: shares.collect::<Result<_, Error>>()?,

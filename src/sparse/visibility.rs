@@ -1,7 +1,7 @@
 //! Modes that sensors see, and those that exist for nobody.
 
-use super::SparseMatrix;
 use super::matrix::ASSEMBLED;
+use super::{ParameterMatrix, Share, SparseMatrix, WholeShare};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use nalgebra::{DMatrix, DVector, DVectorView};
@@ -139,17 +139,20 @@ pub(super) fn visible(
 
 /// The $\sigma_{il}$ of [`visible`] for matrices of half units.
 fn deviations(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<DMatrix<f64>, Error> {
-    // Squares of very large or small numbers leave the range of numbers.
-    let size = modes.shapes.amax();
-    let squares = modes.shapes.map(|value| (value / size).powi(2));
-    let of = |matrix: &SparseMatrix| {
-        let (largest, parts) = matrix.squares();
-        let sums = squares.tr_mul(&parts.times(&squares)?);
-        Ok::<_, Error>(sums.map(|sum| largest * size * size * (sum / 3.0).sqrt()))
-    };
     let frequencies = modes.omega_squared.map(f64::sqrt);
-    let mass = of(pencil[1])?.component_mul(&(&frequencies * frequencies.transpose()));
-    Ok(of(pencil[0])?.zip_map(&mass, f64::hypot))
+    let [stiffness, mass] = pencil.map(|matrix| deviation(matrix, &modes.shapes));
+    let mass = mass?.component_mul(&(&frequencies * frequencies.transpose()));
+    Ok(stiffness?.zip_map(&mass, f64::hypot))
+}
+
+/// The standard deviations of a matrix of half units in shapes.
+fn deviation(half_units: &SparseMatrix, shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    // Squares of very large or small numbers leave the range of numbers.
+    let size = shapes.amax();
+    let squares = shapes.map(|value| (value / size).powi(2));
+    let (largest, parts) = half_units.squares();
+    let sums = squares.tr_mul(&parts.times(&squares)?);
+    Ok(sums.map(|sum| largest * size * size * (sum / 3.0).sqrt()))
 }
 
 /// Standard deviations of the squared frequencies of modes of unit generalized mass by the rounding of a pencil's entries as [`visible`]
@@ -175,6 +178,30 @@ pub(crate) fn open_parts(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<Ve
     }
     let parts = open_squares(pencil, modes)?.component_div(&modes.omega_squared) / 2.0;
     Ok(parts.as_slice().to_vec())
+}
+
+/// A share at a factor, in modes of unit generalized mass, that is nothing of a mode in which the digits of its matrix make it negative: a
+/// part is semidefinite, and steps would soften the mode by making the part stiffer.
+///
+/// # Errors
+/// [`Error::WrongShape`] for matrices that do not fit.
+pub(super) fn told(
+    mut seen: ParameterMatrix,
+    factor: f64,
+    share: &WholeShare,
+    modes: &Modes,
+) -> Result<ParameterMatrix, Error> {
+    let (Share::Stiffness(own) | Share::Mass(own)) = &mut seen;
+    if share.matrix().half_unit().is_written() {
+        let open = deviation(&share.matrix().half_units(), &modes.shapes)?;
+        for mode in 0..own.nrows() {
+            let part = own[(mode, mode)];
+            if part < 0.0 && -part < RARE * factor * open[(mode, mode)] {
+                own[(mode, mode)] = 0.0;
+            }
+        }
+    }
+    Ok(seen)
 }
 
 /// Rows that couplings join, one by one or by others, to a row that a sensor reads.
