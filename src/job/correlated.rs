@@ -5,11 +5,9 @@ use crate::files::error::FileError;
 use crate::method::error::Error;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::method::step::Bounds;
-use crate::sparse::{ModeWeight, Work};
+use crate::sparse::{Deflections, ModeWeight, Work};
 use crate::weighted::comparison::Comparison;
-use crate::weighted::gauss_newton::{
-    LOWER, WeightedCorrelation, WeightedStop, gauss_newton, gauss_newton_below,
-};
+use crate::weighted::gauss_newton::{LOWER, WeightedCorrelation, gauss_newton, gauss_newton_below};
 use crate::weighted::intervals::MOST_FOLLOWED;
 use crate::weighted::lower_place::lower_place;
 use crate::weighted::misfit::{Misfit, most_by_noise};
@@ -18,6 +16,9 @@ use crate::weighted::starts::{WeightedHistory, from_several_starts};
 
 /// Most ends of one run that a lower place is gone to from.
 const MOST_LEFT: usize = 5;
+/// Most rows of a structure of which a lower place is looked for by analyses themselves: one takes a millisecond, as a step in a basis, which
+/// lacks what no deflection at the end shows.
+const MOST_ROWS: usize = 160;
 /// Most deflections of parameters, beside two of every mode, in the basis in which a lower place is looked for: exact steps decide.
 const MOST_DEFLECTIONS: usize = 30;
 
@@ -262,7 +263,8 @@ impl PreparedJob {
         }
     }
 
-    /// The steps that end in the last of the lower places that an end is left for ([`lower_place`]), and whether nothing lower is left.
+    /// The steps that end in the last of the lower places that an end is left for ([`lower_place`]), and whether nothing lower is known of: of
+    /// a minimum that noise does not explain nobody knows.
     fn lowered(
         &self,
         mut run: WeightedCorrelation,
@@ -278,20 +280,26 @@ impl PreparedJob {
             return Ok((run, false));
         }
         for _ in 0..MOST_LEFT {
-            let size = 2 * self.modes.len() + ranges.len().min(MOST_DEFLECTIONS);
             // A minimum that noise does not explain is not the truth's.
-            let is_doubted = run.stop == WeightedStop::Gradient
-                && !Misfit::of(&run.last, &weights, &source.priors, &[])?.is_by_noise();
+            let is_doubted = !Misfit::of(&run.last, &weights, &source.priors, &[])?.is_by_noise();
+            let size = 2 * self.modes.len() + ranges.len().min(MOST_DEFLECTIONS);
+            let basis = run
+                .last
+                .with_model(run.last.model.in_basis(Deflections::All(size))?);
+            let follow = &mut |at: &[f64]| match source.whole.dof_count() <= MOST_ROWS {
+                true => self.analyze(at),
+                false => basis.about(&run.factors)(at),
+            };
             let Some(place) =
-                lower_place(&run, size, &ranges, &weights, &settings, seed, is_doubted)?
+                lower_place(&run, follow, &ranges, &weights, &settings, seed, is_doubted)?
             else {
-                return Ok((run, true));
+                return Ok((run, !is_doubted));
             };
             match steps_below(run.objective - LOWER, &place) {
-                Err(FileError::Interrupted) => return Err(FileError::Interrupted),
+                Err(stop @ FileError::Interrupted) => return Err(stop),
                 Ok(next) if next.objective < run.objective - LOWER => run = run.and_then(next),
                 // What was lower in the basis alone is not.
-                _ => return Ok((run, true)),
+                _ => return Ok((run, !is_doubted)),
             }
         }
         Ok((run, false))

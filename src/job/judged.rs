@@ -260,7 +260,7 @@ impl JobResult {
         let exact = jacobian(model, &weights)?;
         let basis = model
             .model
-            .in_basis(Deflections::All(prepared.deflections()))?;
+            .in_basis(Deflections::All(6 * prepared.modes.len() + 30))?;
         let basis = model.in_basis(basis, &exact, &weights)?;
         let widening = self.misfit.widening();
         self.intervals = intervals(

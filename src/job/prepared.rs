@@ -24,9 +24,6 @@ const RESIDUAL_VECTORS: usize = 4;
 /// Deviation of a frequency, relative, by which roots that no solver tells apart are equal: two in a hundred million of a root.
 const EQUAL: f64 = 3e-9;
 
-/// Distance from the optimum, in deviations, at which weighted steps stop: no interval shows it.
-const TOLERANCE: f64 = 1e-5;
-
 /// A test mode that is not compared, and why.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeftOut {
@@ -392,16 +389,10 @@ impl PreparedJob {
         self.modes.iter().copied().chain(alone)
     }
 
-    /// Number of deflections in a basis that follows all parameters about an end.
-    pub(super) fn deflections(&self) -> usize {
-        6 * self.modes.len() + 30
-    }
-
     /// Settings of weighted steps with the job's priors.
     pub(super) fn weighted_settings(&self) -> WeightedSettings {
         WeightedSettings {
             prior_deviations: self.loaded.source.priors.clone(),
-            tolerance: TOLERANCE,
             ..WeightedSettings::default()
         }
     }

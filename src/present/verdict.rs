@@ -34,13 +34,14 @@ pub(super) fn outcome_in_words(
             " Steps ended at a stationary place, and nothing lower was found from {PLACES} others."
         ),
         _ if verdict.stationary.is_some() => {
-            " Steps ended at a stationary place; nothing lower was looked for from there."
+            " Steps ended at a stationary place; a lower place may exist."
         }
         Outcome::Tolerance | Outcome::Untested => "",
         Outcome::LocalMinimum => " No further step lowered it.",
         Outcome::Short => {
-            " Steps ended short of a minimum: ahead of them no place is lower, where their slopes promise one."
+            " Steps ended short of a minimum: ahead of them no place is lower, where their slopes promise one; a lower place may exist."
         }
+        Outcome::Cap if judged.is_some() => " The steps allowed ran out; a lower place may exist.",
         Outcome::Cap => " The iterations or passes allowed ran out.",
         Outcome::Request => " It was stopped by request.",
         Outcome::Nothing => " No step from the first model lowered it, or none was allowed.",

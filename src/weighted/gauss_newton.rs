@@ -191,11 +191,8 @@ pub(crate) fn gauss_newton_below<E: From<Error>>(
     weights: &[ModeWeight],
     settings: &WeightedSettings,
 ) -> Result<WeightedCorrelation, E> {
-    let problem = Problem::new(first.len(), ranges, weights, settings)?;
-    let problem = Problem {
-        objective,
-        ..problem
-    };
+    let mut problem = Problem::new(first.len(), ranges, weights, settings)?;
+    problem.objective = objective;
     problem.correlation(&mut analyze, first)
 }
 

@@ -1,48 +1,46 @@
-//! A lower place than an end of weighted steps, looked for in a basis about it.
+//! A lower place than an end of weighted steps, looked for from random ones.
 
+use super::comparison::Comparison;
 use super::gauss_newton::{LOWER, Problem, WeightedCorrelation, WeightedSettings};
 use super::second_order::SecondOrder;
 use super::starts::draw;
 use crate::method::error::Error;
 use crate::method::step::Bounds;
-use crate::sparse::{Deflections, ModeWeight};
+use crate::sparse::ModeWeight;
 
-/// Random places in the basis from which steps start.
+/// Random places from which steps start.
 pub const PLACES: usize = 20;
 /// Parts of the range of [`draw`], in logarithms, from which places nearer to the first model are drawn.
 const NEARER: [f64; 2] = [1.0 / 3.0, 2.0 / 3.0];
-/// Most steps in the basis from a place.
-const TRIALS: usize = 12;
+/// Most steps from a place.
+const TRIALS: usize = 24;
 
-/// The factors of the lowest place that steps from [`PLACES`] random ones ([`draw`]) find in a basis of the modes at an end and of so many
-/// deflections of all parameters, if it is lower there than the end by more than a thousandth. In the basis frequencies far from the end
-/// are too high, never too low: an exact analysis decides what the place is worth. An end that `is_doubted` is left from places nearer to
-/// the first model, too, where none was lower.
+/// The factors of the lowest place that steps from [`PLACES`] random ones ([`draw`]) find by `follow`, if it is lower there than where they
+/// end from the end itself by more than a thousandth. In a basis about the end frequencies far from it are too high, never too low: an exact
+/// analysis decides what the place is worth. An end that `is_doubted` is left from places nearer to the first model, too, where none was
+/// lower.
 ///
 /// # Errors
-/// The errors of the basis; [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings and lists out of range.
+/// The errors at the end itself; [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings and lists out of range.
 pub(crate) fn lower_place(
     end: &WeightedCorrelation,
-    deflections: usize,
+    follow: &mut dyn FnMut(&[f64]) -> Result<Comparison, Error>,
     ranges: &[Option<Bounds>],
     weights: &[ModeWeight],
     settings: &WeightedSettings,
     seed: u64,
     is_doubted: bool,
 ) -> Result<Option<Vec<f64>>, Error> {
-    let basis = end.last.model.in_basis(Deflections::All(deflections))?;
-    let basis = end.last.with_model(basis);
     let settings = WeightedSettings {
         trials: TRIALS,
         ..settings.clone()
     };
     let problem = Problem::new(end.factors.len(), ranges, weights, &settings)?;
-    let mut follow = basis.about(&end.factors);
     let mut lowest = |first: &[f64]| {
         let second_order = &mut SecondOrder::new(first.len());
-        problem.lowest(second_order, &mut follow, first, (LOWER, 0.0))
+        problem.lowest(second_order, follow, first, (LOWER, 0.0))
     };
-    // The basis has a minimum of its own near the end.
+    // A basis has a minimum of its own near the end.
     let (own, _) = lowest(&end.factors)?;
     let (mut least, mut place) = (own - LOWER, None);
     let nearer = if is_doubted { &NEARER[..] } else { &[] };

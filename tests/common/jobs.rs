@@ -226,8 +226,8 @@ pub fn with(mut files: Files, name: &str, old: &str, new: &str) -> Files {
 }
 
 /// The files with further entries of `[compare]`.
-pub fn comparing(files: Files, entries: &str) -> Files {
-    match files[0].1.contains("[compare]") {
+pub fn comparing(mut files: Files, entries: &str) -> Files {
+    match file(&mut files, "job.toml").contains("[compare]") {
         true => with(
             files,
             "job.toml",
