@@ -187,8 +187,8 @@ def by_program(program, of, method):
     found = json.loads(done.stdout)
     if isinstance(of, Case):
         found = found["cases"][0]["correlation"]
-    analyses = found.get("analyses", len(found["passes"]) + 1)
-    return answer(analyses, seconds, of, np.array(found["factors"]))
+    analyses = found.get("analyses") or len(found["passes"]) + 1
+    return answer(analyses, seconds, of, np.array([row["factor"] for row in found["parameters"]]))
 
 
 def main(arguments):

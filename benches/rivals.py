@@ -292,7 +292,7 @@ def main(arguments):
         found = json.load(child.stdout)
         # Of this child alone: a shell may have left others to this process.
         spent = os.wait4(child.pid, 0)[2]
-        logarithms = np.log(found["factors"])
+        logarithms = np.log([row["factor"] for row in found["parameters"]])
         objective = 0.5 * (found["misfit"]["chi_squared"] + (logarithms**2).sum() / PRIOR**2)
         line = head | {"variant": "corfem", "seconds": round(spent.ru_utime + spent.ru_stime, 2), "analyses": found["analyses"]}
         print(json.dumps(line | {"objective": objective}), flush=True)

@@ -15,7 +15,8 @@ def market(matrix):
 
 
 def correct(stiffness, mass, parts, frequencies_hz, shapes, sensors, entries="", program="corfem"):
-    """The result of a correlation as a dictionary of arrays and of what `paper/json.md` describes, with the exit status.
+    """The result of a correlation as `paper/json.md` describes it, with the exit status and with the arrays `factors`, `standard_deviations`
+    (where an interval tells them) and `test_hz`.
 
     `parts` are the matrices of the parameters by name, `shapes` (sensors x modes) the test's at the rows `sensors` of the matrices,
     and `entries` more lines of the job, such as '[compare]\\nshape_deviation = 0.01'.
@@ -38,9 +39,11 @@ def correct(stiffness, mass, parts, frequencies_hz, shapes, sensors, entries="",
         if not found.exists():
             raise ValueError(run.stderr + run.stdout)
         result = json.loads(found.read_text())
-    for name in ("factors", "standard_deviations", "test_frequencies_hz"):
-        result[name] = np.array(result[name], float)
-    return result | {"status": run.returncode}
+    def column(kind, name):
+        return np.array([row[name] for row in result[kind]], float)
+    factors = column("parameters", "factor")
+    told = np.where(np.isnan(column("parameters", "low")), np.nan, column("parameters", "deviation_percent"))
+    return result | {"status": run.returncode, "factors": factors, "standard_deviations": 0.01 * factors * told, "test_hz": column("modes", "test_hz")}
 
 
 def scatter(tests, frequencies_hz, shapes, seed=0, frequency=0.005, shape=0.02, **job):

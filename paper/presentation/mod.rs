@@ -3,7 +3,6 @@
 //! The program has this as a module of its commands, the tests as one of theirs; it draws and writes with
 //! [`corfem::present`].
 
-pub mod dump;
 pub mod figures;
 pub mod json;
 pub mod overview;

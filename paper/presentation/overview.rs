@@ -33,17 +33,13 @@ pub fn rms_table(results: &[CaseResult]) -> Result<Table, PresentError> {
     let mut table = Table::new("rms", title, "").labels(rows);
     for result in results.iter().filter(|result| !result.is_detection()) {
         let (frequencies, gages) = (frequency_table(result)?, gage_table(result)?);
-        let both = |cell: &Cell| match cell.published() {
-            Some(published) => format!("{} ({published})", cell.computed()),
-            None => cell.computed(),
-        };
         // The errors of the start, and of the last pass.
         let ends = |table: &Table, label: &str| {
             let mut rows = table.rows.iter();
             let cells = rows.find(|row| row.label == label);
             let cells = cells.map(|row| row.cells.iter().filter(|cell| **cell != Cell::Blank));
             let cells: Vec<&Cell> = cells.into_iter().flatten().collect();
-            [cells.first(), cells.last()].map(|end| end.map_or("none".to_owned(), |end| both(end)))
+            [cells.first(), cells.last()].map(|end| end.map_or("none".to_owned(), |end| end.both()))
         };
         let [frequency, last_frequency] = ends(&frequencies, "frequency RMS");
         let [shape, last_shape] = ends(&frequencies, "shape RMS");

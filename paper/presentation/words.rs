@@ -1,8 +1,37 @@
 //! The verdict on a case in words.
 
 use corfem::job::verdict::Verdict;
-use corfem::present::verdict::verdict_in_words;
+use corfem::present::report::words::{advice, by_tolerance, sentences, worst};
 use corfem::torque_box::CaseResult;
+
+/// The verdict on a correlation by the paper's loops in sentences, with the parameters' names and the numbers of the test modes; places
+/// from one stand for those that have none.
+pub fn verdict_in_words(verdict: &Verdict, names: &[String], mode_numbers: &[usize]) -> String {
+    let named = |start: &str, places: &[usize]| {
+        let name = |&e: &usize| names.get(e).cloned().unwrap_or_else(|| (e + 1).to_string());
+        let all = places.iter().map(name).collect::<Vec<_>>().join(", ");
+        if all.is_empty() {
+            all
+        } else {
+            format!("{start}: {all}.")
+        }
+    };
+    sentences([
+        &by_tolerance(verdict),
+        &verdict.end.words(),
+        &worst(verdict, mode_numbers),
+        &named("At a bound", &verdict.at_bound),
+        &named(
+            "Hardly seen by the test modes, and so not to be trusted",
+            &verdict.unseen,
+        ),
+        if verdict.is_within {
+            ""
+        } else {
+            advice(verdict)
+        },
+    ])
+}
 
 /// [`verdict_in_words`] on a case, with the parameters that its test cannot tell apart, and the change that a weighted step would
 /// still make.

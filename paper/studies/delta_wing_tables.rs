@@ -2,6 +2,7 @@
 
 use super::{PERCENT, RMS_PERCENT};
 use crate::prelude::*;
+use corfem::present::report::Step;
 
 /// NASTRAN printed seven digits.
 const PRINTED: Digits = Digits::Significant(7);
@@ -19,37 +20,30 @@ pub fn delta_wing_tables(
     wing: &DeltaWing,
     run: &WingCorrelation,
 ) -> Result<Vec<Table>, PresentError> {
-    let subject = wing_subject(wing, run)?;
-    let mut paired = paired_table(&subject)?;
-    paired
-        .rows
-        .iter_mut()
-        .zip(TEST_MODES)
-        .for_each(|(row, mode)| row.label = mode.to_string());
+    let first = ExactResult::from(&run.correlation.initial);
+    let last = ExactResult::from(run.correlation.best_check());
+    let mass = first_model(wing)?.matrices(&[1.0; GROUPS.len()])?.mass;
+    let compared = Compared {
+        test: &run.test,
+        numbers: TEST_MODES.to_vec(),
+        first: &first,
+        last: &last,
+        mass: Some(&mass),
+    };
+    let passes = (1..).zip(&run.correlation.passes).map(|(step, pass)| Step {
+        step,
+        iterations: Some(pass.inner.iterations.len()),
+        ..Step::default()
+    });
     Ok(vec![
         deflection_table(wing, TipLoad::TrailingEdge)?,
         deflection_table(wing, TipLoad::LeadingEdge)?,
         frequency_table(wing)?,
         group_table(run),
-        paired,
-        history_table(&subject),
+        Table::of("delta_wing_modes", "Modes", &compared.modes()?, &[]),
+        Table::of("delta_wing_errors", "Errors", &compared.errors(&[]), &[]),
+        Table::of("delta_wing_passes", "Passes", &passes.collect_vec(), &[]),
     ])
-}
-
-/// The delta wing with wrong gages, correlated, as its tables show it.
-fn wing_subject(wing: &DeltaWing, run: &WingCorrelation) -> Result<Report, PresentError> {
-    let names = GROUPS.map(|group| group.name.to_owned());
-    Ok(Report {
-        title: "Delta wing with wrong gages".to_owned(),
-        mass: Some(first_model(wing)?.matrices(&[1.0; GROUPS.len()])?.mass),
-        ..Report::from_correlation(
-            "delta_wing",
-            &names,
-            &run.test,
-            &ExactResult::from(&run.correlation.initial),
-            Some(&run.correlation),
-        )
-    })
 }
 
 /// Somebody else's numbers: who, their heading in the table of known ones, digits of them and of the difference.

@@ -5,24 +5,31 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 /// The effect of a concern on a result, what matters most first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Grade {
     /// It names a mistake.
     Doubt,
+    /// It names a mistake, for which the user answers.
+    #[serde(rename = "doubt, accepted")]
+    Accepted,
     /// A selected test mode is not compared.
+    #[serde(rename = "left out")]
     LeftOut,
     /// A question could not be answered.
+    #[serde(rename = "not checked")]
     NotChecked,
     /// It limits what is known.
+    #[default]
     Remark,
 }
 
 /// A question that the look at a job before its first step, or the account after a run, asks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs, reason = "the names say it")]
 pub enum Check {
+    #[default]
     FreeMotions,
     ModesMeasuredTwice,
     OrderOfFrequencies,
@@ -96,7 +103,7 @@ impl Check {
 }
 
 /// Something that a reader must know before trusting a result.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Concern {
     /// Its effect.
     pub grade: Grade,
@@ -108,8 +115,6 @@ pub struct Concern {
     pub about: Vec<String>,
     /// A sentence that says it.
     pub words: String,
-    /// True if the user answers for it, by its identifier.
-    pub is_accepted: bool,
 }
 
 /// Most characters of an identifier, so that a table of 80 columns has room for its sentence.
@@ -151,7 +156,6 @@ impl Concern {
             identifier,
             about,
             words,
-            is_accepted: false,
         }
     }
 
@@ -174,7 +178,7 @@ impl Concern {
 
     /// True if it names a mistake that nobody answers for.
     pub fn stands(&self) -> bool {
-        self.grade == Grade::Doubt && !self.is_accepted
+        self.grade == Grade::Doubt
     }
 }
 
@@ -260,7 +264,9 @@ impl Trust {
             return Err(FileError::refused(format!("--accept {unknown}"), reason));
         }
         for own in &mut self.concerns {
-            own.is_accepted = own.grade == Grade::Doubt && accepted.contains(&own.identifier);
+            if own.stands() && accepted.contains(&own.identifier) {
+                own.grade = Grade::Accepted;
+            }
         }
         Ok(self)
     }

@@ -4,7 +4,7 @@ use super::PreparedJob;
 use super::concern::{Check, Concern, Grade, Trust, some};
 use super::concerns::{listed, numbers};
 use super::correlated::{Caller, CorrelatedJob, History};
-use super::verdict::{Judged, Outcome, Stationary, Verdict, sum_of_nine_modes};
+use super::verdict::{End, Judged, Verdict, sum_of_nine_modes};
 use crate::files::error::FileError;
 use crate::method::error_sum::mode_errors;
 use crate::method::step::Bounds;
@@ -80,16 +80,9 @@ impl CorrelatedJob {
         let seen = sees(&self.last, misfit.widening())?;
         // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed; not those that ended short or
         // were stopped.
-        let is_short = matches!(
-            verdict.outcome,
-            Outcome::Short | Outcome::Cap | Outcome::Request
-        );
-        let is_weighted = matches!(self.history, History::GaussNewton(_));
-        if is_weighted && misfit.is_by_noise() && !is_short {
-            (verdict.outcome, verdict.is_within) = match misfit.can_fail() {
-                true => (Outcome::Tolerance, true),
-                false => (Outcome::Untested, false),
-            };
+        if matches!(self.history, History::GaussNewton(_)) {
+            verdict.is_within =
+                misfit.is_by_noise() && misfit.can_fail() && !verdict.end.is_early();
         }
         let parameters = 0..self.factors.len();
         verdict.unseen = parameters.filter(|&e| seen.is_mostly_prior(e)).collect();
@@ -126,23 +119,17 @@ impl CorrelatedJob {
             }
             History::GaussNewton(found) => found.as_ref().map(|found| &found.best),
         };
-        let outcome = match found.map(|run| (run.stop, run.iterations.is_empty())) {
-            Some((_, true)) => Outcome::Nothing,
-            None => Outcome::Request,
-            Some((WeightedStop::Trials, _)) => Outcome::Cap,
-            Some((WeightedStop::Short, _)) => Outcome::Short,
-            _ => Outcome::LocalMinimum,
+        let end = match found.map(|run| run.stop) {
+            None => End::Request,
+            Some(WeightedStop::Gradient) if self.is_lowest => End::Lowest,
+            Some(WeightedStop::Gradient) => End::Stationary,
+            Some(_) if found.is_some_and(|run| run.iterations.is_empty()) => End::Nothing,
+            Some(WeightedStop::Trials) => End::Cap,
+            Some(WeightedStop::Short) => End::Short,
         };
         let errors = self.last.mode_errors()?;
         let sum = sum_of_nine_modes(&self.last.result()?.errors);
-        let is_stationary = found.is_some_and(|run| run.stop == WeightedStop::Gradient);
-        Ok(Verdict {
-            stationary: is_stationary.then_some(match self.is_lowest {
-                true => Stationary::Lowest,
-                false => Stationary::NotLookedFrom,
-            }),
-            ..judged.verdict(outcome, (sum, &errors), &self.factors, false)
-        })
+        Ok(judged.verdict(end, (sum, &errors), &self.factors, false))
     }
 
     /// Everything there is to know after the steps.
@@ -216,7 +203,7 @@ impl CorrelatedJob {
     }
 
     /// Errors of the test modes that are held out, at first and at the end.
-    pub(crate) fn held_out(&self) -> Result<Vec<HeldOut>, FileError> {
+    pub fn held_out(&self) -> Result<Vec<HeldOut>, FileError> {
         let (first, last) = (self.first.mode_errors()?, self.last.mode_errors()?);
         let held = &self.prepared.loaded.job.test.hold_out;
         let both = self.prepared.compared().zip(first.iter().zip(&last));
@@ -250,7 +237,7 @@ impl JobResult {
     /// # Errors
     /// The errors of the basis and of [`intervals`].
     fn with_intervals(mut self) -> Result<Self, FileError> {
-        if self.verdict.stationary.is_none() {
+        if !self.verdict.end.is_stationary() {
             return Ok(self.with_reasons());
         }
         let (prepared, factors, model) =

@@ -5,10 +5,8 @@ use super::model::from_deck;
 use super::sensors::{PlacedSensor, place};
 use super::{Job, Method, ModelSource, PreparedJob, read};
 use crate::files::deck::rewrite;
-use crate::files::disk::file_of;
 use crate::files::error::{FileError, ensure};
 use crate::files::matrices::{write_dmig, write_matrix_market};
-use crate::files::read_bytes;
 use crate::files::test_data::TestData;
 use crate::method::error::{Error, at_least_one};
 use crate::method::modes::Modes;
@@ -16,7 +14,6 @@ use crate::sparse::{Place, SparseMatrix, WholeParameter, WholeShare, no_modes};
 use crate::weighted::comparison::LoneFrequency;
 use crate::weighted::noise::Noise;
 use crate::weighted::residuals::DEVIATIONS;
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -194,26 +191,6 @@ impl LoadedJob {
         ]
     }
 
-    /// The inputs' digest: the first 128 bits, in hexadecimal, of the SHA-256 digest (FIPS 180-4) of the program's version, of the files
-    /// that the job names and of its own, each after the number of its bytes.
-    ///
-    /// # Errors
-    /// [`FileError::File`] when one of them cannot be read any more.
-    pub fn digest(&self) -> Result<String, FileError> {
-        let mut digest = Sha256::new_with_prefix(env!("CARGO_PKG_VERSION"));
-        for file in self.job.inputs() {
-            let path = file_of(&file);
-            let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
-            digest.update((bytes.len() as u64).to_be_bytes());
-            digest.update(&bytes);
-        }
-        let bytes = digest.finalize();
-        Ok(bytes[..16]
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect())
-    }
-
     /// The corrected model's files, by name: the deck with elements and point masses scaled by `factors` and every other byte as it was, or
     /// stiffness and mass of all rows, as DMIG where they came so and else in the Matrix Market's format.
     ///
@@ -286,7 +263,7 @@ impl LoadedJob {
     }
 
     /// The first factors.
-    pub(super) fn ones(&self) -> Vec<f64> {
+    pub(crate) fn ones(&self) -> Vec<f64> {
         vec![1.0; self.source.whole.parameters().len()]
     }
 

@@ -16,7 +16,6 @@ mod likelihood;
 pub mod localization;
 mod matrices;
 #[doc(hidden)]
-pub mod metrics;
 mod model;
 mod next_measurement;
 mod parts;
@@ -41,7 +40,7 @@ pub use judged::{HeldOut, JobResult, run};
 pub use loaded::LoadedJob;
 #[doc(hidden)]
 pub use matrices::matrix_modes;
-pub use model::{GridLayout, ModelSource};
+pub use model::{GridLayout, Members, ModelSource};
 pub use next_measurement::{NextMeasurement, mean_deviation};
 pub use prepared::{LeftOut, PreparedJob};
 pub use sensors::PlacedSensor;
@@ -212,16 +211,6 @@ pub enum Method {
     GaussNewton,
 }
 
-impl Method {
-    /// Name of the method in a job.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Paper => "paper",
-            Self::GaussNewton => "gauss_newton",
-        }
-    }
-}
-
 /// Most numbers in one list, against a slip of the finger that fills the memory.
 const MOST_LABELS: usize = 10_000_000;
 
@@ -231,7 +220,7 @@ pub const FILES: [&str; 11] = [
     "factors.csv",
     "shapes.csv",
     "shapes.unv",
-    "residuals.csv",
+    "modes.csv",
     "correlation.json",
     "corrected.bdf",
     "stiffness.mtx",

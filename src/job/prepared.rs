@@ -390,7 +390,7 @@ impl PreparedJob {
     }
 
     /// Settings of weighted steps with the job's priors.
-    pub(super) fn weighted_settings(&self) -> WeightedSettings {
+    pub(crate) fn weighted_settings(&self) -> WeightedSettings {
         WeightedSettings {
             prior_deviations: self.loaded.source.priors.clone(),
             ..WeightedSettings::default()

@@ -7,51 +7,85 @@ use crate::method::step::Bounds;
 use crate::torque_box::CaseResult;
 use crate::weighted::comparison::ModeErrors;
 use crate::weighted::intervals::is_at_end;
+use crate::weighted::lower_place::PLACES;
 use serde::Serialize;
 
 /// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
 /// would move no frequency by half a percent.
 pub const UNSEEN_SHARE: f64 = 0.01;
 
-/// Reason why a correlation ended.
+/// End of a correlation, or of a part of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Outcome {
-    /// The exact modes met the tolerances, and nothing else ended it.
+pub enum End {
+    /// The exact modes met the tolerances of the paper's loops.
     Tolerance,
-    /// No step lowered the error sum any more.
+    /// No step of the paper's loops lowered the error sum any more.
+    #[serde(rename = "local minimum")]
     LocalMinimum,
+    /// The objective of weighted steps is stationary, and steps from places drawn about it have found nothing lower.
+    Lowest,
+    /// It is stationary; nothing lower was looked for, or the steps were led to a lower place for the last time.
+    Stationary,
     /// Weighted steps ended where the objective falls no more though its slopes promise it: pairs of modes change ahead, or the digits of
     /// an analysis tell no lower place.
     Short,
-    /// The passes allowed were used up, or the iterations of the only one.
+    /// The passes, iterations or trials allowed were used up.
     Cap,
     /// The caller asked to stop.
     Request,
-    /// Noise may have left the residuals, and those of a wrong model as well: the test decides nothing.
-    Untested,
     /// Not one step was taken: the first was uphill with all its halvings, or no pass was allowed.
     Nothing,
 }
 
-/// End of weighted steps at a place where the objective is stationary.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Stationary {
-    /// Steps from places drawn in a basis about it have found nothing lower.
-    Lowest,
-    /// Nothing lower was looked for, or the steps were led to a lower place for the last time.
-    NotLookedFrom,
+impl End {
+    /// A sentence on it, empty for tolerances that are met.
+    pub fn words(self) -> String {
+        let words = match self {
+            Self::Tolerance => "",
+            Self::LocalMinimum => "No further step lowered it.",
+            Self::Lowest => {
+                return format!(
+                    "Steps ended at a stationary place, and nothing lower was found from {PLACES} others."
+                );
+            }
+            Self::Stationary => "Steps ended at a stationary place; a lower place may exist.",
+            Self::Short => {
+                "Steps ended short of a minimum: ahead of them no place is lower, where their slopes promise one; a lower place may exist."
+            }
+            Self::Cap => "The iterations or passes allowed ran out.",
+            Self::Request => "It was stopped by request.",
+            Self::Nothing => "No step from the first model lowered it, or none was allowed.",
+        };
+        words.to_owned()
+    }
+
+    /// True at a minimum of weighted steps, about which intervals hold.
+    pub fn is_stationary(self) -> bool {
+        matches!(self, Self::Lowest | Self::Stationary)
+    }
+
+    /// True of weighted steps that may have more to lower.
+    pub fn is_early(self) -> bool {
+        matches!(self, Self::Short | Self::Cap | Self::Request)
+    }
+}
+
+impl From<Stop> for End {
+    fn from(stop: Stop) -> Self {
+        match stop {
+            Stop::Tolerance => Self::Tolerance,
+            Stop::LocalMinimum => Self::LocalMinimum,
+            Stop::Iterations => Self::Cap,
+        }
+    }
 }
 
 /// Verdict on a correlation, at its best factors.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verdict {
     /// Reason why it ended.
-    pub outcome: Outcome,
-    /// End of weighted steps, if the objective is stationary there.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stationary: Option<Stationary>,
+    pub end: End,
     /// Whether the exact modes at the best factors meet the tolerances.
     pub is_within: bool,
     /// Error sum there: the number that the tolerance is compared with.
@@ -78,7 +112,7 @@ impl Judged<'_> {
     /// The verdict on a correlation that is best at `factors`, where the test modes have the error sum and `errors`.
     pub(crate) fn verdict(
         &self,
-        outcome: Outcome,
+        end: End,
         (error_sum, errors): (f64, &[ModeErrors]),
         factors: &[f64],
         is_within: bool,
@@ -93,8 +127,7 @@ impl Judged<'_> {
                 .is_some_and(|seen| factors[e] * seen < UNSEEN_SHARE)
         };
         Verdict {
-            outcome,
-            stationary: None,
+            end,
             is_within,
             error_sum,
             worst_mode,
@@ -114,16 +147,16 @@ impl Judged<'_> {
     ) -> Verdict {
         let passes = run.passes.iter();
         let has_stepped = passes.clone().any(|pass| !pass.inner.iterations.is_empty());
-        let outcome = match passes.last() {
-            _ if is_stopped && !run.converged => Outcome::Request,
-            _ if !has_stepped && !run.converged => Outcome::Nothing,
-            Some(pass) if pass.inner.stop == Stop::LocalMinimum => Outcome::LocalMinimum,
-            _ if run.converged => Outcome::Tolerance,
-            _ => Outcome::Cap,
+        let end = match passes.last() {
+            _ if is_stopped && !run.converged => End::Request,
+            _ if !has_stepped && !run.converged => End::Nothing,
+            Some(pass) if pass.inner.stop == Stop::LocalMinimum => End::LocalMinimum,
+            _ if run.converged => End::Tolerance,
+            _ => End::Cap,
         };
         let errors: Vec<ModeErrors> = errors.iter().copied().map(ModeErrors::from).collect();
         let sums = (measure(&run.best_check().errors), &errors[..]);
-        self.verdict(outcome, sums, &run.best_factors, run.converged)
+        self.verdict(end, sums, &run.best_factors, run.converged)
     }
 }
 

@@ -1,9 +1,15 @@
 //! The reader's view of results: tables as data and as text, Markdown or CSV, JSON, and the report as one page.
 //!
-//! A [`report::Report`] is any correlation with all that a reader needs; tables, JSON, rows of numbers
-//! and a page are views of it. The paper's cases are reports with more beside them, which `paper/presentation` shows.
+//! A [`report::Report`] is a finished job as rows with all that a reader needs; tables, CSV, JSON and the page are views of it. The paper's
+//! cases, which `paper/presentation` shows, share rows of modes and what draws and renders them.
 
-pub mod frame;
+#[doc(hidden)]
+pub mod check;
+pub mod compared;
+#[doc(hidden)]
+pub mod deck;
+#[doc(hidden)]
+pub mod drawing;
 #[doc(hidden)]
 pub mod json;
 #[doc(hidden)]
@@ -12,15 +18,11 @@ pub mod page;
 pub mod render;
 pub mod report;
 #[doc(hidden)]
-pub mod rows;
-#[doc(hidden)]
 pub mod table;
 #[doc(hidden)]
-pub mod verdict;
-#[doc(hidden)]
-pub mod tables;
-#[doc(hidden)]
 pub mod universal;
+#[doc(hidden)]
+pub mod views;
 
 use crate::files::error::FileError;
 use crate::method::error::Error;

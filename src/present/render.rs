@@ -1,6 +1,6 @@
 //! Tables as text for a terminal, as Markdown and as CSV.
 
-use super::table::{Cell, Column, Row, Table};
+use super::table::{Cell, Row, Table};
 use crate::files::test_data::quoted;
 use crate::files::{inert, one_line};
 
@@ -20,15 +20,17 @@ const PUBLISHED: &str = "  published";
 pub fn text(tables: &[Table]) -> String {
     let head = "Computed values; the paper's are in the rows marked \"published\".";
     paragraphs(tables, head, |table| {
-        let notes = table.notes.iter().map(|note| wrapped(&one_line(note)));
-        let body = if table.rows.is_empty() {
-            Vec::new()
-        } else if table.has_sentences() {
-            vec![list(table)]
-        } else {
-            grids(table)
+        let is_sentence = |cell: &Cell| matches!(cell, Cell::Sentence(_));
+        let body = match &table.rows[..] {
+            [] => Vec::new(),
+            rows if rows.iter().any(|row| row.cells.iter().any(is_sentence)) => {
+                vec![rows.iter().map(item).collect::<Vec<_>>().join("\n")]
+            }
+            _ => grids(table),
         };
-        std::iter::once(wrapped(&one_line(&table.title)))
+        let notes = table.notes.iter().map(|note| wrapped(note));
+        [wrapped(&table.title)]
+            .into_iter()
             .chain(body)
             .chain(notes)
             .collect()
@@ -39,42 +41,36 @@ pub fn text(tables: &[Table]) -> String {
 pub fn markdown(tables: &[Table]) -> String {
     let head = "Computed values; the paper's follow in parentheses.";
     paragraphs(tables, head, |table| {
-        let headings = table.columns.iter().map(|column| match column.unit {
+        let line = |label: &str, cells: &mut dyn Iterator<Item = String>| {
+            let cells = [label.to_owned()].into_iter().chain(cells);
+            let cells = cells.map(|cell| one_line(&cell).replace('|', "\\|"));
+            format!("| {} |", cells.collect::<Vec<_>>().join(" | "))
+        };
+        let mut headings = table.columns.iter().map(|column| match column.unit {
             "" => column.name.clone(),
             unit => format!("{}, {unit}", column.name),
         });
-        let line = |label: &str, cells: Vec<String>| {
-            let cells = [vec![label.to_owned()], cells].concat();
-            let cells = cells.iter().map(|cell| one_line(cell).replace('|', "\\|"));
-            format!("| {} |", cells.collect::<Vec<_>>().join(" | "))
-        };
-        let rule = vec!["---:".to_owned(); table.columns.len()];
         let mut lines = vec![
-            line(table.label_heading, headings.collect()),
-            line("---", rule),
+            line(&table.label_heading, &mut headings),
+            line("---", &mut table.columns.iter().map(|_| "---:".to_owned())),
         ];
-        for row in &table.rows {
-            let cells = row.cells.iter().map(|cell| match cell.published() {
-                Some(published) => format!("{} ({published})", cell.computed()),
-                None => cell.computed(),
-            });
-            lines.push(line(&row.label, cells.collect()));
-        }
+        lines.extend(
+            table
+                .rows
+                .iter()
+                .map(|row| line(&row.label, &mut row.cells.iter().map(Cell::both))),
+        );
         let notes = table.notes.iter().map(|note| one_line(note));
-        [format!("## {}", one_line(&table.title)), lines.join("\n")]
-            .into_iter()
-            .chain(notes)
-            .collect()
+        let body = (!table.rows.is_empty()).then(|| lines.join("\n"));
+        let title = format!("## {}", one_line(&table.title));
+        [title].into_iter().chain(body).chain(notes).collect()
     })
 }
 
 /// Paragraphs of every table, below a line about published numbers where there are any.
 fn paragraphs(tables: &[Table], head: &str, of: impl Fn(&Table) -> Vec<String>) -> String {
-    let head = tables
-        .iter()
-        .flat_map(|table| &table.rows)
-        .any(Row::is_published)
-        .then(|| head.to_owned());
+    let mut rows = tables.iter().flat_map(|table| &table.rows);
+    let head = rows.any(Row::is_published).then(|| head.to_owned());
     let shown = tables.iter().filter(|table| !table.is_empty());
     let paragraphs: Vec<String> = head.into_iter().chain(shown.flat_map(of)).collect();
     paragraphs.join("\n\n") + "\n"
@@ -124,18 +120,17 @@ fn ten_digits(value: f64) -> String {
     format!("{value:.9e}").parse().unwrap_or(value).to_string()
 }
 
-/// A column of text: lines of its heading, and of its cells with the published ones between them where a row has any.
+/// A column of text: the lines of its heading, then of every cell, with the published ones between them where a row has any.
 struct TextColumn {
-    heading: Vec<String>,
     cells: Vec<Vec<String>>,
     width: usize,
 }
 
 impl TextColumn {
     /// A column no wider than `most`.
-    fn new(name: &str, unit: &str, cells: Vec<String>, most: usize) -> Self {
+    fn new(name: &str, unit: &str, cells: impl Iterator<Item = String>, most: usize) -> Self {
         let name = one_line(name);
-        let cells: Vec<String> = cells.iter().map(|cell| one_line(cell)).collect();
+        let cells: Vec<String> = cells.map(|cell| one_line(&cell)).collect();
         let least = if name.contains(' ') { LEAST } else { 0 };
         let words = cells
             .iter()
@@ -148,15 +143,9 @@ impl TextColumn {
             .min(most);
         let mut heading = lines(name.split(' '), width);
         heading.extend((!unit.is_empty()).then(|| unit.to_owned()));
-        // Most cells are one word that fits.
-        let is_whole = |cell: &str| !cell.contains(' ') && cell.chars().count() <= width;
-        let cells = cells.into_iter().map(|cell| match is_whole(&cell) {
-            true => vec![cell],
-            false => lines(cell.split(' '), width),
-        });
+        let cells = cells.iter().map(|cell| lines(cell.split(' '), width));
         Self {
-            heading,
-            cells: cells.collect(),
+            cells: [heading].into_iter().chain(cells).collect(),
             width,
         }
     }
@@ -170,21 +159,19 @@ fn grids(table: &Table) -> Vec<String> {
                 .into_iter()
                 .take(1 + usize::from(row.is_published()))
         });
-        TextColumn::new(name, unit, cells.collect(), most)
+        TextColumn::new(name, unit, cells, most)
     };
-    let label = column(table.label_heading, "", WIDTH / 2, &|row| {
+    let label = column(&table.label_heading, "", WIDTH / 2, &|row| {
         [row.label.clone(), PUBLISHED.to_owned()]
     });
     let width = WIDTH - label.width;
     let (mut parts, mut room): (Vec<Vec<TextColumn>>, _) = (Vec::new(), 0);
-    for (at, Column { name, unit }) in table.columns.iter().enumerate() {
+    for (at, own) in table.columns.iter().enumerate() {
         let both = |row: &Row| {
-            row.cells
-                .get(at)
-                .map(|cell| [cell.computed(), cell.published().unwrap_or_default()])
-                .unwrap_or_default()
+            let cell = &row.cells[at];
+            [cell.computed(), cell.published().unwrap_or_default()]
         };
-        let column = column(name, unit, width - GAP, &both);
+        let column = column(&own.name, own.unit, width - GAP, &both);
         if GAP + column.width > room {
             parts.push(Vec::new());
             room = width;
@@ -197,76 +184,66 @@ fn grids(table: &Table) -> Vec<String> {
     parts.iter().map(|part| grid(&label, part)).collect()
 }
 
-/// The rows one below the other, where a cell is too long for a column: label, other cells, sentence.
-fn list(table: &Table) -> String {
-    let of_row = |row: &Row| {
-        let (sentences, others): (Vec<&Cell>, Vec<&Cell>) = row
+/// A row with a cell that is too long for a column: other cells, label, sentence.
+fn item(row: &Row) -> String {
+    let of = |is_sentence: bool, between| {
+        let cells = row
             .cells
             .iter()
-            .partition(|cell| matches!(cell, Cell::Sentence(_)));
-        let join = |cells: Vec<&Cell>, between| {
-            let words: Vec<String> = cells.into_iter().map(Cell::computed).collect();
-            words.join(between)
-        };
-        wrapped(&one_line(&format!(
-            "{} {}: {}",
-            join(others, ", "),
-            row.label,
-            join(sentences, " ")
-        )))
+            .filter(|cell| matches!(cell, Cell::Sentence(_)) == is_sentence);
+        cells.map(Cell::computed).collect::<Vec<_>>().join(between)
     };
-    table.rows.iter().map(of_row).collect::<Vec<_>>().join("\n")
+    wrapped(&format!(
+        "{} {}: {}",
+        of(false, ", "),
+        row.label,
+        of(true, " ")
+    ))
 }
 
 /// One part: headings, rows, and a rule below each.
 fn grid(label: &TextColumn, columns: &[TextColumn]) -> String {
-    let line = |text: &dyn Fn(&TextColumn) -> &str| {
-        let mut line = format!("{:<width$}", text(label), width = label.width);
-        for column in columns {
-            line += &format!("{:>width$}", text(column), width = GAP + column.width);
-        }
-        line.truncate(line.trim_end().len());
-        line
-    };
-    let high = columns
-        .iter()
-        .chain([label])
-        .map(|column| column.heading.len())
-        .max()
-        .unwrap_or(0);
-    fn heading(column: &TextColumn, row: Option<usize>) -> &str {
-        row.map_or("", |row| &column.heading[row])
-    }
-    let rule = "─".repeat(
-        label.width
-            + columns
-                .iter()
-                .map(|column| GAP + column.width)
-                .sum::<usize>(),
-    );
-    // Headings are aligned to the rule below: shorter ones begin lower.
-    let row = |column: &TextColumn, at: usize| (at + column.heading.len()).checked_sub(high);
-    let headings = (0..high).map(|at| line(&|column| heading(column, row(column, at))));
-    let rows = (0..label.cells.len()).flat_map(|row| {
-        let cells = columns
+    let all = || columns.iter().chain([label]);
+    let width = label.width
+        + columns
             .iter()
-            .chain([label])
-            .map(|column| column.cells[row].len());
-        let line = &line;
-        (0..cells.max().unwrap_or(0))
-            .map(move |at| line(&|column| column.cells[row].get(at).map_or("", String::as_str)))
-    });
-    headings
-        .chain([rule.clone()])
-        .chain(rows)
-        .chain([rule.clone()])
-        .collect::<Vec<_>>()
-        .join("\n")
+            .map(|column| GAP + column.width)
+            .sum::<usize>();
+    let rule = "─".repeat(width);
+    let mut out = Vec::new();
+    for row in 0..label.cells.len() {
+        let high = all()
+            .map(|column| column.cells[row].len())
+            .max()
+            .unwrap_or(0);
+        for at in 0..high {
+            let text = |column: &TextColumn| {
+                let lines = &column.cells[row];
+                // Headings are aligned to the rule below: shorter ones begin lower.
+                let at = if row == 0 {
+                    (at + lines.len()).checked_sub(high)
+                } else {
+                    Some(at)
+                };
+                at.and_then(|at| lines.get(at)).cloned().unwrap_or_default()
+            };
+            let mut line = format!("{:<width$}", text(label), width = label.width);
+            for column in columns {
+                line += &format!("{:>width$}", text(column), width = GAP + column.width);
+            }
+            out.push(line.trim_end().to_owned());
+        }
+        if row == 0 {
+            out.push(rule.clone());
+        }
+    }
+    out.push(rule);
+    out.join("\n")
 }
 
 /// A paragraph in lines of at most [`WIDTH`].
 fn wrapped(paragraph: &str) -> String {
-    lines(paragraph.split(' '), WIDTH).join("\n")
+    lines(one_line(paragraph).split(' '), WIDTH).join("\n")
 }
 
 /// Words in lines of at most a width; a word that is longer continues on the next line.
@@ -278,13 +255,11 @@ pub fn lines<'a>(words: impl IntoIterator<Item = &'a str>, width: usize) -> Vec<
             .chunks(width.max(1))
             .map(String::from_iter)
             .collect();
-        if pieces.is_empty() {
-            pieces.push(String::new());
-        }
+        pieces.extend(letters.is_empty().then(String::new));
         for piece in pieces {
             match lines.last_mut() {
                 Some(line) if line.chars().count() + 1 + piece.chars().count() <= width => {
-                    *line += &format!(" {piece}")
+                    *line += &format!(" {piece}");
                 }
                 _ => lines.push(piece),
             }

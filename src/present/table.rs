@@ -1,6 +1,13 @@
 //! A table as data: numbers with their published counterparts, before any layout.
 
+use crate::files::test_data::quoted;
 use serde::Serialize;
+use serde_json::{Map, Value};
+
+/// Digits of a frequency.
+pub const HERTZ: Digits = Digits::Significant(4);
+/// Digits of root mean squares in percent.
+pub const RMS_PERCENT: Digits = Digits::Fixed(2);
 
 /// Form in which a number is written for a reader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,7 +70,7 @@ pub struct Table {
     /// Title for readers.
     pub title: String,
     /// Heading of the row labels.
-    pub label_heading: &'static str,
+    pub label_heading: String,
     /// Columns after the label.
     pub columns: Vec<Column>,
     /// Rows.
@@ -113,6 +120,14 @@ impl Cell {
         }
     }
 
+    /// The computed number with the published one in parentheses behind it, if there is one.
+    pub fn both(&self) -> String {
+        match self.published() {
+            Some(published) => format!("{} ({published})", self.computed()),
+            None => self.computed(),
+        }
+    }
+
     /// The computed number, or the words, or the paper's own text, as a reader sees them.
     pub fn computed(&self) -> String {
         match self {
@@ -130,12 +145,6 @@ impl Table {
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty() && self.notes.is_empty()
     }
-
-    /// True if a column has sentences.
-    pub(crate) fn has_sentences(&self) -> bool {
-        let mut cells = self.rows.iter().flat_map(|row| &row.cells);
-        cells.any(|cell| matches!(cell, Cell::Sentence(_)))
-    }
 }
 
 impl Row {
@@ -147,13 +156,43 @@ impl Row {
 
 impl Table {
     /// A table without columns and rows.
-    pub fn new(name: impl Into<String>, title: impl Into<String>, label: &'static str) -> Self {
+    pub fn new(
+        name: impl Into<String>,
+        title: impl Into<String>,
+        label: impl Into<String>,
+    ) -> Self {
         Self {
             name: name.into(),
             title: title.into(),
-            label_heading: label,
+            label_heading: label.into(),
             ..Self::default()
         }
+    }
+
+    /// Rows as a table, of all their fields or of those that are chosen, as far as one of the rows has them. A field is a column by its
+    /// name in words; the end of the name is its unit, and the first is the label.
+    pub fn of(
+        name: impl Into<String>,
+        title: impl Into<String>,
+        rows: &[impl Serialize],
+        chosen: &[&str],
+    ) -> Self {
+        let rows = objects(rows);
+        let is_there = |key: &&str| rows.iter().any(|row| cell(key, &row[*key]) != Cell::Blank);
+        let keys: Vec<&str> = match (chosen, rows.first()) {
+            ([], Some(row)) => row.keys().map(String::as_str).collect(),
+            (_, row) => row.map_or(&[][..], |_| chosen).to_vec(),
+        };
+        let mut keys = keys.into_iter().filter(is_there);
+        let Some(label) = keys.next() else {
+            return Self::new(name, title, "");
+        };
+        let words = |row: &Map<String, Value>| cell(label, &row[label]).computed();
+        let table = Self::new(name, title, heading(label).0).labels(rows.iter().map(words));
+        keys.fold(table, |table, key| {
+            let (words, unit) = heading(key);
+            table.column(words, unit, rows.iter().map(|row| cell(key, &row[key])))
+        })
     }
 
     /// The table with empty rows of these labels, for columns to fill.
@@ -202,32 +241,6 @@ impl Table {
         });
     }
 
-    /// The table without its blank columns.
-    pub fn filled(mut self) -> Self {
-        for at in (0..self.columns.len()).rev() {
-            let is_blank = |row: &Row| row.cells[at].computed().is_empty();
-            if !self.rows.is_empty() && self.rows.iter().all(is_blank) {
-                self.columns.remove(at);
-                self.rows
-                    .iter_mut()
-                    .for_each(|row| drop(row.cells.remove(at)));
-            }
-        }
-        self
-    }
-
-    /// The table with only the columns of these names, in their order.
-    pub fn only(mut self, names: &[&str]) -> Self {
-        let columns = &self.columns;
-        let place = |name: &&str| columns.iter().position(|column| column.name == **name);
-        let kept: Vec<usize> = names.iter().filter_map(place).collect();
-        for row in &mut self.rows {
-            row.cells = kept.iter().map(|&at| row.cells[at].clone()).collect();
-        }
-        self.columns = kept.iter().map(|&at| self.columns[at].clone()).collect();
-        self
-    }
-
     /// The table with more sentences under it.
     pub fn notes<S: Into<String>>(mut self, sentences: impl IntoIterator<Item = S>) -> Self {
         self.notes.extend(sentences.into_iter().map(Into::into));
@@ -261,6 +274,78 @@ impl Digits {
             text
         }
     }
+}
+
+/// Rows as objects.
+fn objects(rows: &[impl Serialize]) -> Vec<Map<String, Value>> {
+    let rows = rows
+        .iter()
+        .filter_map(|row| match serde_json::to_value(row) {
+            Ok(Value::Object(row)) => Some(row),
+            _ => None,
+        });
+    rows.collect()
+}
+
+/// A field's name in words, and the unit that it ends with.
+fn heading(key: &str) -> (String, &'static str) {
+    let (name, unit) = match key.rsplit_once('_') {
+        Some((name, "hz")) => (name, "Hz"),
+        Some((name, "percent")) => (name, "%"),
+        _ => (key, ""),
+    };
+    let name = name.replace('_', " ").replace("mac", "MAC");
+    (name[..1].to_uppercase() + &name[1..], unit)
+}
+
+/// A field as a cell: a number by its unit, of any other unit with five digits and at most four behind the point.
+fn cell(key: &str, value: &Value) -> Cell {
+    match value {
+        Value::Number(number) => match (number.as_f64(), heading(key).1) {
+            (Some(own), "Hz") => Cell::number(own, HERTZ),
+            (Some(own), "%") => Cell::number(own, Digits::Fixed(2)),
+            (Some(own), _) if number.is_f64() => {
+                let tens = own.abs().max(1.0).log10() as usize;
+                Cell::number(own, Digits::Fixed(4_usize.saturating_sub(tens)))
+            }
+            (own, _) => Cell::number(own, Digits::Fixed(0)),
+        },
+        Value::Array(all) if !all.is_empty() && all.iter().all(Value::is_number) => {
+            let all = all.iter().map(|own| cell(key, own).computed());
+            Cell::text(all.collect::<Vec<_>>().join(", "))
+        }
+        _ => match words(value) {
+            words if words.is_empty() => Cell::Blank,
+            words if key == "words" => Cell::Sentence(words),
+            words => Cell::text(words),
+        },
+    }
+}
+
+/// A value in words.
+fn words(value: &Value) -> String {
+    match value {
+        Value::Null | Value::Bool(false) => String::new(),
+        Value::Bool(true) => "yes".to_owned(),
+        Value::String(words) => words.clone(),
+        Value::Array(all) => all.iter().map(words).collect::<Vec<_>>().join(", "),
+        other => other.to_string(),
+    }
+}
+
+/// Rows as CSV for a script, under the names of their fields, every number with all its digits.
+pub fn separated<R: Serialize + Default>(rows: &[R]) -> String {
+    let line = |fields: Vec<String>| fields.join(",") + "\n";
+    let field = |value: &Value| match value {
+        Value::String(_) | Value::Array(_) => quoted(&words(value)),
+        other => words(other),
+    };
+    let names = objects(&[R::default()]).into_iter();
+    let names = names.map(|row| line(row.keys().cloned().collect()));
+    let rows = objects(rows).into_iter();
+    names
+        .chain(rows.map(|row| line(row.values().map(field).collect())))
+        .collect()
 }
 
 /// Numbers, or nothing, as cells.

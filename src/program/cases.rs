@@ -1,11 +1,9 @@
 //! `corfem cases`: the paper's cases.
 
-use super::output::{OutputArguments, note, reconstruction};
+use super::output::{OutputArguments, note, reconstruction, tell};
 use super::paper::{json, overview::overview, tables};
-use super::progress;
 use super::settings::SettingsArguments;
 use clap::Args;
-use corfem::method::error::Error;
 use corfem::present::PresentError;
 use corfem::present::table::counted;
 use corfem::torque_box::wing_box::Reconstruction;
@@ -33,7 +31,7 @@ pub struct CasesArguments {
     settings: SettingsArguments,
 }
 
-/// The cases asked for, each once.
+/// The cases asked for.
 fn chosen(
     arguments: &CasesArguments,
     reconstruction: &Reconstruction,
@@ -43,15 +41,7 @@ fn chosen(
     } else {
         &arguments.cases
     };
-    let case = |(row, &number): (usize, &usize)| {
-        if numbers[..row].contains(&number) {
-            return Err(Error::Duplicate {
-                owner: "the cases asked for".into(),
-                what: "case",
-                label: number,
-            }
-            .into());
-        }
+    let case = |&number: &usize| {
         let mut case = Case::from_reconstruction(number, reconstruction.clone())?;
         arguments.settings.apply(&mut case.settings)?;
         if arguments.groups {
@@ -59,32 +49,30 @@ fn chosen(
         }
         Ok(case)
     };
-    numbers.iter().enumerate().map(case).collect()
+    numbers.iter().map(case).collect()
 }
 
 /// Runs the cases asked for and writes the report; true if all of them succeeded.
 pub fn cases(arguments: &CasesArguments, quiet: bool) -> Result<bool, PresentError> {
     let reconstruction = reconstruction(arguments.box_file.as_deref())?;
     let is_brief = arguments.cases.is_empty() && !arguments.all && arguments.output.is_text();
-    let bar = progress::spinner(quiet || !is_brief);
     let mut results = Vec::new();
     for case in chosen(arguments, &reconstruction)? {
         let number = case.number;
         results.push(run_case(&case, |pass, done| {
             let words = format!(
-                "case {number}, pass {pass}: {}, error sum {:.4} by perturbation, {:.4} exact",
+                "case {number}, pass {pass}: {}, error sum {:.4}",
                 counted(done.inner.iterations.len(), "iteration", "iterations"),
-                done.inner.last.errors.sum(),
                 done.check.errors.sum(),
             );
             match is_brief {
-                true => bar.set_message(words),
+                true => tell(quiet, &words),
                 false if quiet => (),
                 false => note(words),
             }
         })?);
     }
-    bar.finish_and_clear();
+    tell(quiet, "");
     if is_brief {
         arguments.output.write_text(&overview(&results)?)?;
     } else {

@@ -1,14 +1,13 @@
 //! `corfem deck` and `corfem modes`: the box as a NASTRAN deck, and the modes of any deck.
 
-use super::output::{OutputArguments, note, reconstruction};
-use super::place::write_report;
+use super::output::{OutputArguments, note, reconstruction, write};
 use clap::Args;
 use corfem::files::deck::{self, BulkData, Task};
 use corfem::files::error::FileError;
 use corfem::files::read_bytes;
 use corfem::job::{matrix_modes, of_bodies};
 use corfem::method::error::Error;
-use corfem::present::tables::deck::{deck_tables, not_read};
+use corfem::present::deck::{deck_tables, not_read};
 use corfem::present::{PresentError, json};
 use corfem::torque_box::wing_box::dynamic_points;
 use corfem::torque_box::{Case, run_case};
@@ -59,7 +58,7 @@ pub struct ModesArguments {
 }
 
 /// Writes the deck of a case.
-pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
+pub fn deck(arguments: &DeckArguments) -> Result<bool, PresentError> {
     let case = Case::from_reconstruction(
         arguments.case,
         reconstruction(arguments.box_file.as_deref())?,
@@ -86,10 +85,9 @@ pub fn deck(arguments: &DeckArguments) -> Result<(), PresentError> {
     };
     let bulk = BulkData::from_model(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
     let title = format!("corfem case {}, pass {}", arguments.case, arguments.pass);
-    write_report(
-        arguments.output.as_deref(),
-        &deck::write(&bulk, &title, &task)?,
-    )
+    let text = deck::write(&bulk, &title, &task)?;
+    write(arguments.output.as_deref(), text.as_bytes())?;
+    Ok(true)
 }
 
 /// Prints the modes of a deck or of matrices; true if none is lost and no doubt stands.

@@ -1,7 +1,6 @@
 //! `corfem init --example`: the jobs of `tests/jobs`, with all their files.
 
-use super::output::note;
-use super::place::write_files;
+use super::output::{note, write_files};
 use clap::ValueEnum;
 use corfem::files::error::FileError;
 use corfem::present::PresentError;
@@ -42,13 +41,12 @@ impl Example {
 
     /// Writes the job and its files into a folder, made if it is new, and over none that is there.
     pub fn write(self, folder: &Path, quiet: bool) -> Result<(), PresentError> {
-        let files = self.files();
-        let mut paths = files.iter().map(|(name, _)| folder.join(name));
-        if let Some(path) = paths.find(|path| path.exists()) {
+        let is_there = |(name, _): &&(&str, &str)| folder.join(name).exists();
+        if let Some((name, _)) = self.files().iter().find(is_there) {
             let found = Error::from(ErrorKind::AlreadyExists);
-            return Err(FileError::of_file(&path, "write")(found).into());
+            return Err(FileError::of_file(&folder.join(name), "write")(found).into());
         }
-        write_files(folder, files.iter().copied())?;
+        write_files(folder, self.files().iter().copied())?;
         if !quiet {
             let job = folder.join("job.toml");
             note(format_args!(

@@ -8,24 +8,18 @@ mod output;
 #[path = "../../paper/presentation/mod.rs"]
 mod paper;
 mod pictures;
-mod place;
-mod progress;
 mod settings;
 mod studies;
 
 use cases::CasesArguments;
-use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
-use corfem::files::error::FileError;
 use corfem::job::spare;
 use corfem::present::PresentError;
 use deck::{DeckArguments, ModesArguments};
 use job::{CheckArguments, CorrelateArguments, InitArguments};
-use output::note;
-use pictures::{DumpArguments, FiguresArguments, ReportArguments};
-use place::{check, write_report};
-use std::io;
-use std::path::{Path, PathBuf};
+use output::{check, note};
+use pictures::{FiguresArguments, ReportArguments};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use studies::{FewerModesArguments, TablesArguments};
 
@@ -36,7 +30,7 @@ const NOT_CONVERGED: u8 = 3;
 ///
 /// Without a command it correlates the paper's four cases on its wing torque box and prints what became of them.
 #[derive(Debug, Parser)]
-#[command(version, propagate_version = true, max_term_width = 100, after_help = AFTER_HELP)]
+#[command(version, max_term_width = 100, after_help = AFTER_HELP)]
 struct Arguments {
     /// Show no progress
     #[arg(short, long, global = true)]
@@ -99,9 +93,6 @@ enum Command {
     /// Write the torque box of a case as a NASTRAN deck
     #[command(after_help = PLAIN_HELP)]
     Deck(DeckArguments),
-    /// Write a case's matrices and every iteration, as JSON and Matrix Market, to check another program against
-    #[command(after_help = PLAIN_HELP)]
-    Dump(DumpArguments),
     /// Print frequencies and mode shapes of a NASTRAN deck or of matrices
     #[command(after_help = MODES_HELP)]
     Modes(ModesArguments),
@@ -109,75 +100,37 @@ enum Command {
 
 /// Runs the program.
 pub fn run() -> ExitCode {
-    let matches = Arguments::command().try_get_matches();
-    let parsed = matches.and_then(|matches| Ok((Arguments::from_arg_matches(&matches)?, matches)));
-    let (Arguments { command, quiet }, matches) = match parsed {
-        Ok(parsed) => parsed,
-        Err(mut error) if error.use_stderr() => {
-            if error.kind() == ErrorKind::MissingRequiredArgument
-                && error.to_string().contains("<JOB>")
-            {
-                let remedy = "corfem init job.toml writes a job that explains its entries";
-                let tips = ContextValue::StyledStrs(vec![remedy.into()]);
-                error.insert(ContextKind::Suggested, tips);
-            }
-            let _ = error.print();
-            return ExitCode::from(BAD_INPUT);
-        }
-        Err(asked) => {
-            let is_version = asked.kind() == ErrorKind::DisplayVersion;
-            // The version of a subcommand would have the subcommand's name in it.
-            let text = if is_version {
-                Arguments::command().render_version()
-            } else {
-                asked.render().to_string()
-            };
-            return status(write_report(None, &text).map(|()| true));
-        }
-    };
+    let matches = Arguments::command().get_matches();
+    let Arguments { command, quiet } =
+        Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     status(check_places(&matches).and_then(|()| match command {
         None => cases::cases(&CasesArguments::default(), quiet),
         Some(Command::Cases(arguments)) => cases::cases(&arguments, quiet),
-        Some(Command::Tables(arguments)) => studies::tables(&arguments).map(|()| true),
-        Some(Command::FewerModes(arguments)) => {
-            studies::fewer_modes(&arguments, quiet).map(|()| true)
-        }
+        Some(Command::Tables(arguments)) => studies::tables(&arguments),
+        Some(Command::FewerModes(arguments)) => studies::fewer_modes(&arguments, quiet),
         Some(Command::Correlate(arguments)) => job::correlate(&arguments, quiet),
-        Some(Command::Init(arguments)) => job::init(&arguments, quiet).map(|()| true),
+        Some(Command::Init(arguments)) => job::init(&arguments, quiet),
         Some(Command::Check(arguments)) => job::check_job(&arguments, quiet),
-        Some(Command::Figures(arguments)) => pictures::figures(&arguments, quiet).map(|()| true),
-        Some(Command::Report(arguments)) => pictures::report(&arguments, quiet).map(|()| true),
-        Some(Command::Deck(arguments)) => deck::deck(&arguments).map(|()| true),
-        Some(Command::Dump(arguments)) => pictures::dump(&arguments, quiet).map(|()| true),
+        Some(Command::Figures(arguments)) => pictures::figures(&arguments, quiet),
+        Some(Command::Report(arguments)) => pictures::report(&arguments, quiet),
+        Some(Command::Deck(arguments)) => deck::deck(&arguments),
         Some(Command::Modes(arguments)) => deck::modes(&arguments),
     }))
 }
 
-/// Refuses a file or folder that could not be written, or whose name promises another kind, before the work is done.
+/// Refuses a file or folder that could not be written before the work is done.
 fn check_places(matches: &ArgMatches) -> Result<(), PresentError> {
-    let Some((command, own)) = matches.subcommand() else {
+    let Some((_, own)) = matches.subcommand() else {
         return Ok(());
     };
     let path = |name| own.try_get_one::<PathBuf>(name).ok().flatten();
-    let refuse_page = |path: &Path| match path.extension() {
-        Some(kind) if kind.eq_ignore_ascii_case("html") && !path.is_dir() => {
-            let words = "corfem correlate --folder writes the page of a job, corfem report -o that of the cases";
-            let found = io::Error::new(io::ErrorKind::InvalidInput, words);
-            Err(FileError::of_file(path, "write")(found))
-        }
-        _ => Ok(()),
-    };
     let [file, folder] = ["output", "folder"].map(path);
-    for page in file
-        .into_iter()
-        .filter(|_| command != "report")
-        .chain(folder)
-    {
-        refuse_page(page)?;
-    }
     let named = ["deck", "stiffness", "mass", "box_file"].map(path);
     spare(path("job"), named, [file, folder])?;
-    check(file.map(PathBuf::as_path), folder.map(PathBuf::as_path))
+    Ok(check(
+        file.map(PathBuf::as_path),
+        folder.map(PathBuf::as_path),
+    )?)
 }
 
 fn status(done: Result<bool, PresentError>) -> ExitCode {

@@ -1,7 +1,6 @@
 //! Settings of the loops from the command line, so that a reader tries another reading without writing Rust.
 
 use clap::Args;
-use corfem::method::linear_algebra::check_length;
 use corfem::method::outer_loop::Settings;
 use corfem::method::step::Bounds;
 use corfem::method::step::{Accumulation, StepRule};
@@ -9,6 +8,7 @@ use corfem::present::PresentError;
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::{Error, StrDeserializer};
+use std::num::NonZeroUsize;
 
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Settings of the loops")]
@@ -26,20 +26,20 @@ pub struct SettingsArguments {
     #[arg(long, value_name = "HOW", value_parser = named::<Accumulation>, verbatim_doc_comment)]
     accumulation: Option<Accumulation>,
     /// Relaxation R of a pass's first iteration, and of the others
-    #[arg(long, value_name = "FIRST,OTHERS", value_delimiter = ',')]
-    relaxation: Option<Vec<f64>>,
+    #[arg(long, value_name = "FIRST,OTHERS", value_parser = pair)]
+    relaxation: Option<(f64, f64)>,
     /// Tolerance on the error sum of the inner loop in the first pass, and in the others; fractions
-    #[arg(long, value_name = "FIRST,OTHERS", value_delimiter = ',')]
-    tolerance: Option<Vec<f64>>,
+    #[arg(long, value_name = "FIRST,OTHERS", value_parser = pair)]
+    tolerance: Option<(f64, f64)>,
     /// Bounds on the factor of one iteration
-    #[arg(long, value_name = "LOWER,UPPER", value_delimiter = ',')]
-    limits: Option<Vec<f64>>,
+    #[arg(long, value_name = "LOWER,UPPER", value_parser = pair)]
+    limits: Option<(f64, f64)>,
     /// Most inner iterations of a pass
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    iterations: Option<u32>,
+    #[arg(long, value_name = "N")]
+    iterations: Option<NonZeroUsize>,
     /// Most passes
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    passes: Option<u32>,
+    #[arg(long, value_name = "N")]
+    passes: Option<NonZeroUsize>,
 }
 
 /// A value by its name in JSON, so that what the report prints can be typed.
@@ -54,31 +54,25 @@ impl SettingsArguments {
         let inner = &mut settings.inner;
         inner.step = self.rule.unwrap_or(inner.step);
         inner.accumulation = self.accumulation.unwrap_or(inner.accumulation);
-        if let Some((first, others)) = pair("--relaxation", self.relaxation.as_deref())? {
+        if let Some((first, others)) = self.relaxation {
             (inner.first_relaxation, inner.relaxation) = (first, others);
         }
-        if let Some((first, others)) = pair("--tolerance", self.tolerance.as_deref())? {
+        if let Some((first, others)) = self.tolerance {
             (inner.tolerance, settings.later_inner_tolerance) = (first, others);
         }
-        if let Some((lower, upper)) = pair("--limits", self.limits.as_deref())? {
+        if let Some((lower, upper)) = self.limits {
             inner.factor_range = Bounds::positive("--limits", lower, upper)?;
         }
-        inner.iterations = self
-            .iterations
-            .map_or(inner.iterations, |most| most as usize);
-        settings.most_passes = self
-            .passes
-            .map_or(settings.most_passes, |most| most as usize);
+        inner.iterations = self.iterations.map_or(inner.iterations, NonZeroUsize::get);
+        settings.most_passes = self.passes.map_or(settings.most_passes, NonZeroUsize::get);
         settings.least_passes = settings.least_passes.min(settings.most_passes);
         Ok(())
     }
 }
 
 /// The two numbers of an option.
-fn pair(option: &'static str, values: Option<&[f64]>) -> Result<Option<(f64, f64)>, PresentError> {
-    let Some(values) = values else {
-        return Ok(None);
-    };
-    check_length(option, values.len(), 2)?;
-    Ok(Some((values[0], values[1])))
+fn pair(text: &str) -> Result<(f64, f64), String> {
+    let numbers = text.split_once(',');
+    let numbers = numbers.and_then(|(one, other)| Some((one.parse().ok()?, other.parse().ok()?)));
+    numbers.ok_or("two numbers with a comma between them are needed".to_owned())
 }

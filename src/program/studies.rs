@@ -1,8 +1,7 @@
 //! `corfem tables` and `fewer-modes`.
 
-use super::output::OutputArguments;
+use super::output::{OutputArguments, tell};
 use super::paper::tables;
-use super::progress::during;
 use super::settings::SettingsArguments;
 use clap::Args;
 use corfem::present::{PresentError, json};
@@ -28,7 +27,7 @@ pub struct FewerModesArguments {
 }
 
 /// Writes Table 1, computed anew, and the paper's other tables as printed.
-pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
+pub fn tables(arguments: &TablesArguments) -> Result<bool, PresentError> {
     let all: Vec<u8> = (1..=13).collect();
     let numbers = if arguments.numbers.is_empty() {
         &all
@@ -40,23 +39,27 @@ pub fn tables(arguments: &TablesArguments) -> Result<(), PresentError> {
         _ => tables::published::published_table(number.into()),
     };
     let tables = numbers.iter().map(table).collect::<Result<Vec<_>, _>>()?;
+    let document = json!({ "tables": tables });
     arguments
         .output
-        .write(&tables, || json::document(json!({ "tables": tables })))
+        .write(&tables, || json::document(json::BOX_UNITS, document))?;
+    Ok(true)
 }
 
 /// Runs Case 2 with fewer modes and writes Tables 9 to 12 and the cost of truncation.
 pub fn fewer_modes(
     FewerModesArguments { settings, output }: &FewerModesArguments,
     quiet: bool,
-) -> Result<(), PresentError> {
+) -> Result<bool, PresentError> {
     let mut case = Case::new(PUBLISHED_CASE)?;
     settings.apply(&mut case.settings)?;
-    let (published, all) = during(quiet, "runs with fewer modes", || {
-        (published_runs(&case), all_runs(&case))
-    });
-    let (published, all) = (published?, all?);
+    tell(quiet, "runs with fewer modes");
+    let (published, all) = (published_runs(&case)?, all_runs(&case)?);
+    tell(quiet, "");
     let mut tables = tables::fewer_modes::published_tables(&case, &published)?;
     tables.extend(tables::fewer_modes::truncation_tables(&all));
-    output.write(&tables, || json::document(json!({ "runs": all })))
+    output.write(&tables, || {
+        json::document(json::BOX_UNITS, json!({ "runs": all }))
+    })?;
+    Ok(true)
 }

@@ -65,7 +65,7 @@ impl WeightedSettings {
     }
 
     /// The prior's part of twice the objective, $\sum (\ln s_e/\tau_e)^2$.
-    pub(super) fn pull(&self, factors: &[f64]) -> f64 {
+    pub(crate) fn pull(&self, factors: &[f64]) -> f64 {
         let pulls = factors.iter().zip(self.priors(factors.len()));
         pulls
             .map(|(factor, prior)| (factor.ln() / prior).powi(2))

@@ -29,16 +29,6 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::NAN)
 }
 
-/// A list, which a check does not have.
-fn list(value: &Value) -> &[Value] {
-    value.as_array().map_or(&[], Vec::as_slice)
-}
-
-/// The numbers of a list, NaN for what is none.
-fn numbers(value: &Value) -> Vec<f64> {
-    list(value).iter().map(number).collect()
-}
-
 /// The program's answer to the files of a job.
 pub fn answered(files: &Files) -> Answer {
     let (_folder, path) = placed(files);
@@ -61,30 +51,38 @@ pub fn answer(job: &Path) -> Answer {
             ..Answer::default()
         };
     };
-    let deviations = list(&found["standard_deviations"]);
-    let end = |interval: &Value, end| interval[end].as_f64();
-    let intervals = list(&found["intervals"]).iter();
-    let is_against = |own: &&Value| own["grade"] == "doubt" || own["grade"] == "left_out";
-    let against = list(&found["trust"]).iter().filter(is_against);
-    let best = match found["best_pass"].as_u64() {
-        Some(pass) => &found["passes"][pass as usize - 1]["exact"],
-        None => &found["initial"],
+    // A check has concerns alone.
+    let rows = |kind: &str| found[kind].as_array().cloned().unwrap_or_default();
+    let parameters = rows("parameters");
+    let interval = |own: &Value| Some([own["low"].as_f64()?, own["high"].as_f64()?]);
+    // Those of the factors themselves, where an interval tells them.
+    let deviation = |own: &Value| {
+        interval(own)?;
+        Some(0.01 * number(&own["factor"]) * number(&own["deviation_percent"]))
     };
+    let is_against = |own: &&Value| own["grade"] == "doubt" || own["grade"] == "left out";
+    let against = rows("concerns");
+    let shaped = rows("modes")
+        .into_iter()
+        .filter(|own| own["corrected_mac"].is_number());
     Answer {
         status,
-        intervals: intervals
-            .map(|own| Some([end(own, "lower")?, end(own, "upper")?]))
+        factors: parameters
+            .iter()
+            .map(|own| number(&own["factor"]))
             .collect(),
+        deviations: parameters.iter().map(deviation).collect(),
+        intervals: parameters.iter().map(interval).collect(),
         doubts: against
+            .iter()
+            .filter(is_against)
             .map(|own| own["identifier"].as_str().unwrap().to_owned())
             .collect::<BTreeSet<_>>()
             .into_iter()
             .collect(),
-        frequencies: numbers(&best["frequencies_hz"]),
-        is_stationary: found["verdict"]["stationary"].is_string(),
+        frequencies: shaped.map(|own| number(&own["corrected_hz"])).collect(),
+        is_stationary: found["end"] == "lowest" || found["end"] == "stationary",
         chi_squared: number(&found["misfit"]["chi_squared"]),
-        factors: numbers(&found["factors"]),
-        deviations: deviations.iter().map(Value::as_f64).collect(),
         words: String::from_utf8(run("text").stdout).unwrap(),
     }
 }

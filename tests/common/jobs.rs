@@ -333,5 +333,5 @@ pub fn rods_with(old: &str, new: &str) -> Files {
 
 /// The report on what came of a job.
 pub fn report_of(found: &JobResult) -> Report {
-    Report::from_job(&found.found.prepared, Some(found)).unwrap()
+    Report::new(found, "corfem correlate job.toml").unwrap()
 }

@@ -16,6 +16,7 @@ pub mod complex_pencils;
 pub mod condensed;
 pub mod decks;
 pub mod draws;
+pub mod dump;
 #[cfg(unix)]
 pub mod fake_solver;
 pub mod fill;

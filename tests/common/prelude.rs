@@ -105,9 +105,8 @@ pub use corfem::{
         assignment::pair_optimally,
         expansion::mass_by_modes,
         localization::{by_factor, by_single_fit},
-        metrics::coordinate_assurance,
         preflight::{Change, FACTORS, Names, SeenModes, preflight_at_sensors},
-        verdict::{Judged, Outcome, Verdict},
+        verdict::{End, Judged, Verdict},
     },
     method::{
         analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings},
@@ -149,13 +148,12 @@ pub use corfem::{
     },
     present::{
         PresentError,
+        check::{check_tables, suspects_table},
+        compared::{Compared, Derivatives},
         render::{self, csv, text},
         report::Report,
         table::{Cell, Digits, Table, numbers, percents},
-        tables::{
-            job::{places_table, suspects_table, trust_table},
-            report::{factor_table, history_table, paired_table},
-        },
+        views::trust_table,
     },
     sparse::{
         BasisSize, CountedModes, FINITE, Factor, MOST_DENSE_ROWS, ModeWeight, Pair,

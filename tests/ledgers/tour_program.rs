@@ -1,6 +1,6 @@
 //! A program in another language, written from the text of the tour alone, against the cases.
 
-use crate::paper::dump::dump;
+use crate::common::dump::dump;
 use crate::prelude::*;
 use std::io::Write;
 
@@ -35,7 +35,7 @@ fn compared(document: &str) -> Result<String, String> {
 #[ignore = "needs python3 with numpy"]
 fn a_program_written_from_the_tour_matches_every_case() {
     for number in 1..=3 {
-        let document = dump(&case_of(number)).unwrap().json;
+        let document = dump(&case_of(number)).unwrap();
         let said = compared(&document).unwrap_or_else(|error| panic!("case {number}: {error}"));
         assert!(said.starts_with(&format!("case {number}: ")), "{said}");
         // Another number in the first iteration is noticed.

@@ -1,73 +1,63 @@
 //! What a report knows of a job and of a case, and what its tables say of sensors, doubts and suspects.
 
 use crate::common::jobs::run;
-use crate::paper::report::case_report;
 use crate::prelude::*;
-use crate::presentation::figures::results;
-use corfem::present::report::Derivatives;
+use corfem::present::report::{facts, places};
 use std::sync::Arc;
 
-fn at(x: f64) -> Vector3<f64> {
-    Vector3::new(x, 0.0, 0.0)
-}
-
 #[test]
-fn a_job_has_the_rods_the_grids_and_the_wall_of_its_deck() {
+fn a_job_is_drawn_with_the_rods_the_grids_and_the_bounds_of_its_deck() {
     let bounded = "elements = [1]\nlower = 0.5\nupper = 2.0";
-    let mut prepared = prepared(&rods_with("elements = [1]", bounded));
-    let of = |prepared: &PreparedJob| Report::from_job(prepared, None).unwrap();
-    let subject = of(&prepared);
+    let mut found = finished(&prepared(&rods_with("elements = [1]", bounded)));
+    let report = report_of(&found);
+    let drawing = report.drawing.unwrap();
     // Point masses have one grid, and are no lines.
-    let rods = [0.0, 10.0, 20.0].map(|x| vec![at(x), at(x + 10.0)]);
-    assert_eq!(subject.frame, rods);
-    let grids = [0, 1, 2, 3].map(|k| (k + 1, at(10.0 * k as f64)));
+    let rods = [0, 1, 1].into_iter().enumerate();
+    let rods = rods.map(|(row, of)| (vec![row, row + 1], vec![of]));
+    assert_eq!(drawing.pieces, rods.collect_vec());
     assert_eq!(
-        (&subject.grids[..], &subject.supports[..]),
-        (&grids[..], &[at(0.0)][..])
+        drawing.places,
+        [0.0, 10.0, 20.0, 30.0].map(|x| [x, 0.0, 0.0])
     );
-    let (lower, upper) = (0.5, 2.0);
-    assert_eq!(subject.ranges, [Some(Bounds { lower, upper }), None]);
-    for (sensor, (grid, place)) in subject.sensors.iter().zip(&grids[1..]) {
-        assert_eq!(sensor.name, format!("S{grid}"));
-        assert_eq!(
-            (sensor.place, sensor.direction),
-            (Some(*place), Vector3::x())
-        );
-    }
-    assert!(subject.derivatives.is_none() && subject.best.is_none() && !subject.converged());
+    let sensors = [1, 2, 3].map(|place| Some((place, [1.0, 0.0, 0.0])));
+    assert_eq!(drawing.sensors, sensors);
+    let bounds = report
+        .parameters
+        .iter()
+        .map(|own| own.lower_bound.zip(own.upper_bound));
+    assert_eq!(bounds.collect_vec(), [Some((0.5, 2.0)), None]);
     // Without elements the lines of the test are drawn, but for one with an end that stands nowhere; a rotation moves nothing.
-    let own = Arc::make_mut(&mut prepared.loaded);
+    let own = Arc::make_mut(&mut found.found.prepared.loaded);
     Arc::make_mut(&mut own.source).geometry.elements.clear();
     own.data.lines = vec![[1, 2], [2, 99]];
     own.placed[0].direction = 3;
-    let subject = of(&prepared);
-    assert_eq!(subject.frame, [vec![at(0.0), at(10.0)]]);
-    assert_eq!(subject.sensors[0].direction, Vector3::zeros());
+    let drawing = report_of(&found).drawing.unwrap();
+    assert_eq!(drawing.pieces, [(vec![0, 1], Vec::new())]);
+    assert_eq!(drawing.sensors[0], Some((1, [0.0; 3])));
 }
 
 #[test]
-fn a_job_has_converged_when_its_verdict_says_so_and_has_one_stage_when_it_was_stopped() {
+fn a_report_ends_as_its_verdict_says_and_a_stopped_one_has_no_step() {
     let each = rods_with("elements = [\"2-3\"]", "elements = [\"2-3\"]\neach = true");
     let precise = "[compare]\nfrequency_deviation = 1e-4\nshape_deviation = 1e-4";
-    let two = rods_with("[compare]", precise);
-    for (files, is_within) in [(&each, true), (&two, false)] {
-        let prepared = prepared(files);
-        let finished = finished(&prepared);
-        let subject = Report::from_job(&prepared, Some(&finished)).unwrap();
+    for (files, is_within) in [(&each, true), (&rods_with("[compare]", precise), false)] {
+        let found = finished(&prepared(files));
+        let report = report_of(&found);
         assert_eq!(
-            (finished.verdict.is_within, subject.converged()),
+            (found.verdict.is_within, report.is_within),
             (is_within, is_within)
         );
-        assert_eq!(subject.factors(), finished.found.factors);
+        let factors = report.parameters.iter().map(|own| own.factor).collect_vec();
+        assert_eq!(factors, found.found.factors);
+        let last = report.history.last().unwrap();
+        assert_eq!(last.stop, Some(report.end));
+        // The last step's chi-squared is that of the end.
+        assert!(
+            relative_error(last.chi_squared.unwrap(), found.misfit.chi_squared) < MATRIX_ROUND_OFF
+        );
     }
-    let prepared = prepared(&each);
-    let finished = run(&prepared, |_| {}, || false).unwrap();
-    let subject = Report::from_job(&prepared, Some(&finished)).unwrap();
-    assert_eq!((subject.best, subject.stages.len()), (Some(0), 1));
-    assert_eq!(
-        (subject.stages[0].stop.as_str(), &subject.stages[0].factors),
-        ("request", &finished.found.factors)
-    );
+    let stopped = report_of(&run(&prepared(&each), |_| {}, || false).unwrap());
+    assert_eq!((stopped.end, stopped.history.len()), (End::Request, 0));
 }
 
 #[test]
@@ -76,24 +66,22 @@ fn sensors_that_point_the_other_way_askew_or_nowhere_are_told() {
     let loaded = Arc::make_mut(&mut prepared.loaded);
     loaded.placed[1].sign = -1.0;
     loaded.placed[2].axis = Vector3::new(0.6, 0.0, -0.8);
-    let table = places_table(loaded, None).unwrap();
-    let directions = table
-        .rows
-        .iter()
-        .map(|row| row.cells[1].computed())
-        .collect_vec();
-    assert_eq!(directions, ["x", "-x", "x (0.60 0.00 -0.80)"]);
-    assert!(table.notes.is_empty());
+    let directions = places(loaded).into_iter().map(|own| own.direction);
+    assert_eq!(directions.collect_vec(), ["x", "-x", "x (0.60 0.00 -0.80)"]);
     loaded.placed.pop();
-    let table = places_table(loaded, None).unwrap();
-    assert_eq!(table.notes, ["1 of the test's 3 sensors are not used."]);
+    let facts = facts(&prepared).unwrap();
+    assert!(
+        facts
+            .iter()
+            .any(|own| own.fact == "sensors that are not used" && own.value == "1")
+    );
 }
 
 #[test]
 fn a_mode_is_doubtful_when_it_is_complex_beyond_the_limit() {
     let mut prepared = prepared(&rods());
     Arc::make_mut(&mut prepared.loaded).data.phase_collinearity = vec![0.95, 0.94, 0.99];
-    let doubts = text(&[trust_table(&trust_in(&prepared))]);
+    let doubts = text(&[trust_table("", &trust_in(&prepared))]);
     assert!(
         doubts.contains("Test mode 2 is complex: its phase collinearity is 0.94."),
         "{doubts}"
@@ -121,27 +109,9 @@ fn suspects_have_their_own_unlimited_factors() {
         let slope = slopes.find(|slope| parameters[slope.parameter].name == row.label);
         assert_eq!(
             row.cells[2].computed(),
-            format!("{:.2}", slope.unwrap().factor)
+            format!("{:.4}", slope.unwrap().factor)
         );
     }
-}
-
-#[test]
-fn a_case_has_the_bounds_and_the_places_of_its_model() {
-    let result = &results()[1];
-    let subject = case_report(result).unwrap();
-    let model = result.case.model().unwrap();
-    assert_eq!(subject.ranges, model.factor_ranges().unwrap());
-    // Held are both ends of the root and the point on the mid-chord line between them.
-    let [rear, middle, front] = subject.supports[..] else {
-        panic!("three places")
-    };
-    let along = result.case.reconstruction.mid_chord_fraction;
-    assert_relative_eq!(
-        middle,
-        rear + along * (front - rear),
-        max_relative = ROUND_OFF
-    );
 }
 
 /// A frequency's derivative by stiffness and by mass, against frequencies of a model with a little more of it.

@@ -1,80 +1,76 @@
-//! The page of a job: no name breaks it, and every view says the same.
+//! The report of a job: no name breaks its page, every view says the same, and a terminal has room for it.
 
-use crate::common::jobs::loaded;
+use crate::common::jobs::unbroken;
 use crate::prelude::*;
-use crate::presentation::subject::{chain, is_well_formed};
-use corfem::present::page::charts::factor_bars;
+use crate::presentation::play::by_node;
+use crate::presentation::subject::is_well_formed;
 use corfem::present::page::report_page;
-use corfem::present::tables::report::answer_table;
-use corfem::present::{json, rows};
+use corfem::present::render::WIDTH;
+use corfem::present::table::separated;
 
 const JOBS: [&str; 3] = ["box", "building", "wing"];
 
-fn report(name: &str) -> Report {
-    Report::from_job(&loaded(name), Some(worked(name))).unwrap()
-}
-
-/// The data of the first moving structure of a page.
-fn data(page: &str) -> Value {
-    let (_, rest) = page.split_once("<script>moving(").unwrap();
-    let (data, _) = rest.split_once(")</script>").unwrap();
-    serde_json::from_str(data).unwrap()
-}
-
-/// Text, CSV, JSON, rows and page are views of one value.
+/// Text, CSV, JSON and page are views of one value.
 #[test]
 fn every_view_tells_the_same_factors_and_errors() {
     for name in JOBS {
-        let report = report(name);
-        let table = factor_table(&report);
-        let document = json::report(&report).unwrap();
-        let bars = factor_bars(&report);
-        let (plain, separated, rows) = (
-            text(&[answer_table(&report), table.clone()]),
-            csv(&[table]),
-            rows::factor_rows(&report),
-        );
-        assert_eq!(document["answer"], report.answer());
-        let answer = plain.split_whitespace().collect_vec().join(" ");
-        assert!(answer.starts_with(&report.answer()), "{plain}");
-        for (e, parameter) in report.parameters.iter().enumerate() {
-            let factor = document["factors"][e].as_f64().unwrap();
-            assert_eq!(factor, report.factors()[e]);
-            let mut rows_of = plain.lines().skip_while(|line| !line.is_empty());
-            let row = rows_of.find(|line| line.starts_with(&format!("{parameter} ")));
-            let four = Digits::Fixed(4).write(factor);
-            assert!(
-                row.is_some_and(|row| row.contains(&four)),
-                "{parameter}: {plain}"
-            );
-            let is_of = |line: &&str| line.contains(&format!(",{parameter},Factor,,"));
-            let read = separated.lines().find(is_of).unwrap();
-            let read: f64 = read.split(',').nth(4).unwrap().parse().unwrap();
-            assert!(relative_error(read, factor) < 1e-9, "{read} {factor}");
-            assert!(
-                rows.contains(&format!(",1,{factor},")),
-                "{parameter}: {rows}"
-            );
-            let three = Digits::Fixed(3).write(factor);
-            assert!(
-                bars.contains(&format!("</td><td>{three}")),
-                "{parameter}: {bars}"
-            );
+        let report = report_of(worked(name));
+        let document = serde_json::to_value(&report).unwrap();
+        let (plain, page) = (text(&report.brief()), report_page(&report).unwrap());
+        let rows = separated(&report.parameters);
+        let mut rows = csv::Reader::from_reader(rows.as_bytes());
+        let rows = rows.deserialize().map(Result::unwrap);
+        let rows: Vec<BTreeMap<String, String>> = rows.collect();
+        assert_eq!(document["answer"], report.answer);
+        assert!(unbroken(&plain).starts_with(&report.answer), "{plain}");
+        for (e, own) in report.parameters.iter().enumerate() {
+            assert_eq!(document["parameters"][e]["factor"], own.factor);
+            assert_eq!(rows[e]["factor"].parse(), Ok(own.factor));
+            let four = Digits::Fixed(4).write(own.factor);
+            let mut lines = plain.lines().skip_while(|line| !line.is_empty());
+            let line = lines.find(|line| line.starts_with(&format!("{} ", own.parameter)));
+            assert!(line.is_some_and(|line| line.contains(&four)), "{plain}");
+            assert!(page.contains(&format!("<td>{four}</td>")), "{four}");
         }
     }
 }
 
+/// The law: the surest change stands first, and what the test hardly sees last.
+#[test]
+fn factors_stand_in_the_order_of_how_sure_their_changes_are() {
+    for name in ["box", "garteur", "wing"] {
+        let rows = report_of(worked(name)).by_sureness();
+        let key = |e: usize| rows[e].sureness.map_or(1.0, |own| -own as f32);
+        assert!((1..rows.len()).all(|e| key(e - 1) <= key(e)), "{name}");
+    }
+}
+
+/// The law: the answer to a job, its doubts, factors, modes and remarks have room on one page of a terminal.
+#[test]
+fn the_text_of_a_job_is_sixty_lines_of_eighty_columns() {
+    let plain = text(&report_of(worked("garteur")).brief());
+    assert!(plain.lines().count() <= 60, "{plain}");
+    assert!(
+        plain.lines().all(|line| line.chars().count() <= WIDTH),
+        "{plain}"
+    );
+}
+
 #[test]
 fn no_name_ends_the_script_or_a_tag() {
-    let name = "</script><b a=\"x\">&amp;'@DATA@";
-    let along = |row: usize| (Vector3::new(row as f64, 0.0, 0.0), Vector3::z());
-    let subject = chain(name, &[0.9, 1.1, 0.95, 1.0], along);
-    let page = report_page(&subject, &[], name, name).unwrap();
+    let name = "</script><b a='x'>&amp;@DATA@";
+    let title = format!("title = \"{name}\"\n[model]");
+    let files = rods_with("name = \"a\"", &format!("name = \"{name}\""));
+    let files = with(files, "job.toml", "[model]", &title);
+    let page = report_page(&report_of(&finished(&prepared(&files)))).unwrap();
     assert!(is_well_formed(&page), "{page}");
     assert!(!page.contains("<b a"));
-    assert_eq!(
-        page.matches("<script>").count(),
-        page.matches("</script>").count()
-    );
-    assert_eq!(data(&page)["modes"].as_array().map(Vec::len), Some(3));
+    let both = ["<script>", "</script>"].map(|tag| page.matches(tag).count());
+    assert_eq!(both[0], both[1]);
+    // Node reads the report that charts are drawn from.
+    let (_, rest) = page.split_once("<script>const report = ").unwrap();
+    let (data, _) = rest.split_once(";</script>").unwrap();
+    let found = by_node(&format!("console.log(JSON.stringify({data}))"));
+    assert_eq!(found["parameters"][0]["parameter"], name);
+    assert_eq!(found["modes"].as_array().map(Vec::len), Some(3));
 }

@@ -1,8 +1,54 @@
 //! The figure to play with: its script is short and needs nothing, and what it solves in the page is what the program solves.
 
-use crate::paper::page::play::play;
 use crate::prelude::*;
 use crate::presentation::figures::results;
+use corfem::present::compared::matrix_rows;
+
+/// A case's first pass as HTML with its script and data, to stand in any page.
+///
+/// The script holds the panels' shares $V^t B K_e B^t V$ (9 × 9, lower triangles), and finds modes, pairs and errors from them as
+/// the program does, by Jacobi rotations.
+///
+/// # Errors
+/// The errors of the case's model and its analysis.
+fn play(result: &CaseResult) -> Result<String, PresentError> {
+    let pass = &result.correlation.passes[0];
+    let (case, test) = (&result.case, &result.test);
+    let ones = vec![1.0; result.parameter_names.len()];
+    let first = case.model()?.analyze(&ones, test, None)?;
+    let rows = matrix_rows;
+    let triangle = |matrix: &DMatrix<f64>| -> Vec<f64> {
+        (0..matrix.nrows())
+            .flat_map(|i| (0..=i).map(move |j| matrix[(i, j)]))
+            .collect()
+    };
+    let shares = first.shares().iter().map(triangle);
+    let steps = pass.inner.iterations.iter().map(|step| &step.factors);
+    let mils = 1000.0 * case.first_gages().first().copied().unwrap_or(TEST_GAGE);
+    let modes = &first.exact().modes;
+    let data = json!({
+        "squares": modes.omega_squared().as_slice(),
+        "shares": shares.collect::<Vec<_>>(),
+        "shapes": rows(modes.shapes()),
+        "test": rows(test.shapes()),
+        "hertz": test.frequencies_hz(),
+        "masses": case.reconstruction.masses,
+        "steps": std::iter::once(&ones).chain(steps).collect::<Vec<_>>(),
+        "mils": mils,
+        "truth": 1000.0 * TEST_GAGE,
+        "exact": pass.check.errors.sum(),
+        "least": LEAST_SHARE,
+    });
+    Ok([
+        include_str!("../../paper/presentation/page/play.html"),
+        "<script>\nconst DATA = ",
+        &data.to_string(),
+        ";\n",
+        include_str!("../../paper/presentation/page/play.js"),
+        "</script>\n",
+    ]
+    .concat())
+}
 
 fn html() -> String {
     play(&results()[1]).unwrap()

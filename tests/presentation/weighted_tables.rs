@@ -4,8 +4,8 @@ use crate::common::jobs::loaded;
 use crate::evidence::coverage::ENOUGH;
 use crate::ledgers::tables::{COVERED, computed};
 use crate::prelude::*;
+use corfem::present::check::MOST_SUSPECTS;
 use corfem::present::render::WIDTH;
-use corfem::present::tables::job::MOST_SUSPECTS;
 
 fn fits(tables: &[Table]) {
     let text = text(tables);

@@ -283,9 +283,8 @@ fn units_of_mass_and_force_change_no_answer() {
 /// The objective at the end, and whether a lower place is said to be possible.
 fn end(files: &Files) -> (f64, bool) {
     let found = finished(&prepared(files));
-    let is_said = report_of(&found)
-        .words()
-        .contains("a lower place may exist");
+    let words = report_of(&found).verdict;
+    let is_said = words.contains("lower place may exist");
     let History::GaussNewton(Some(steps)) = found.found.history else {
         panic!("stopped")
     };

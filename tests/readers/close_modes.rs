@@ -30,6 +30,12 @@ pub fn towers([split, truth, angle]: [f64; 3]) -> Files {
     of_matrices(&parts, &(50.0 * eye(6)), &modes)
 }
 
+/// Every test mode is its partner's, whatever the combination.
+fn all_alike(result: &JobResult) {
+    let modes = report_of(result).modes;
+    assert!(modes.iter().all(|own| own.corrected_mac > Some(1.0 - 1e-9)));
+}
+
 fn corrected(files: &Files) -> (PreparedJob, JobResult) {
     let loaded = prepared(files);
     let result = finished(&loaded);
@@ -45,7 +51,7 @@ fn turned_shapes_of_close_modes_are_no_error() {
         assert!(!result.trust.has_doubt(), "{:?}", result.trust);
         assert_eq!(about(&result.trust, "close-modes-3-4"), ["3", "4"]);
         assert!(!result.trust.stands_against());
-        assert_eq!(result.verdict.outcome, Outcome::Tolerance);
+        assert!(result.verdict.is_within);
         // Turned shapes leave nothing: every factor follows the frequencies of both towers.
         assert!(
             result
@@ -56,15 +62,7 @@ fn turned_shapes_of_close_modes_are_no_error() {
             "{:?}",
             result.found.factors
         );
-        let report = Report::from_job(&loaded, Some(&result)).unwrap();
-        let agreement = report.agreement(report.corrected()).unwrap();
-        for (mode, &partner) in report.corrected().pairing.analysis_mode.iter().enumerate() {
-            assert!(
-                agreement.assurance[(partner, mode)] > 1.0 - 1e-9,
-                "mode {mode}"
-            );
-        }
-        assert!(paired_table(&report).is_ok());
+        all_alike(&result);
         assert!(result.misfit.chi_squared < 1.0);
     }
 }
@@ -92,7 +90,7 @@ fn one_mode_of_a_double_root_is_compared_with_the_whole_of_it() {
         let shapes = DMatrix::from_columns(&[all.shapes().column(0).into_owned(), mix(1), mix(3)]);
         let squares = all.omega_squared();
         let test = Modes::new(dvector![squares[0], squares[1], squares[3]], shapes).unwrap();
-        let (loaded, result) = corrected(&of_matrices(&parts, &mass, &test));
+        let (_, result) = corrected(&of_matrices(&parts, &mass, &test));
         assert!(!result.trust.has_doubt(), "{:?}", result.trust);
         // What is left is the pull of the prior.
         assert!(
@@ -100,14 +98,7 @@ fn one_mode_of_a_double_root_is_compared_with_the_whole_of_it() {
             "{}",
             result.misfit.chi_squared
         );
-        let report = Report::from_job(&loaded, Some(&result)).unwrap();
-        let (shown, agreement) = (
-            report.corrected(),
-            report.agreement(report.corrected()).unwrap(),
-        );
-        for (mode, &partner) in shown.pairing.analysis_mode.iter().enumerate() {
-            assert!(agreement.assurance[(partner, mode)] > 1.0 - 1e-9);
-        }
+        all_alike(&result);
         for (factor, truth) in result.found.factors.iter().zip(truth) {
             assert!((factor / truth - 1.0).abs() < 1e-3, "{factor} {truth}");
         }

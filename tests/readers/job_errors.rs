@@ -5,7 +5,7 @@ use crate::common::jobs::run;
 use crate::common::jobs::said;
 use crate::prelude::*;
 use corfem::job::LeftOut;
-use corfem::present::tables::job::model_table;
+use corfem::present::report::facts;
 use std::sync::Arc;
 
 const A: &str = "elements = [1]";
@@ -28,9 +28,10 @@ fn of_job(text: &str, _: &[String]) -> Result<Value, String> {
     let known = prepare(&path).and_then(|job| {
         let trust = Trust::before(&job)?;
         run(&job, |_| {}, || true)?;
-        let facts = model_table(&job)?;
-        let mass = facts.rows.iter().skip(1).map(|row| row.cells[0].computed());
-        let mass = mass.take(facts.rows.len() - 2).collect_vec();
+        let mass = facts(&job)?.into_iter();
+        let mass =
+            mass.filter(|own| own.fact.starts_with("mass") || own.fact.starts_with("center"));
+        let mass = mass.map(|own| own.value).collect_vec();
         Ok(json!({
             "motions": job.loaded.source.motions.len(),
             "mass": mass.join(" at "),

@@ -63,12 +63,12 @@ fn a_mode_left_out_is_compared_once_it_resembles_a_mode_of_the_model() {
         );
         let mut all = result.trust.all().iter();
         assert!(all.all(|own| own.grade != Grade::LeftOut));
-        let report = Report::from_job(&loaded, Some(&result)).unwrap();
-        assert_eq!(report.mode_numbers, [1, 2, 3], "{method}");
-        assert_eq!(report.corrected().errors.shape_count, 3, "{method}");
+        let report = report_of(&result);
+        let numbers = report.modes.iter().map(|own| own.mode).collect_vec();
+        assert_eq!(numbers, [1, 2, 3], "{method}");
         // From where the others have led the paper's loops find a minimum of their own.
         let is_within = result.verdict.is_within;
-        assert_eq!(is_within, method != "paper", "{}", report.words());
+        assert_eq!(is_within, method != "paper", "{}", report.verdict);
     }
 }
 
@@ -113,14 +113,17 @@ fn predicted_deviations_hold_what_was_held_out() {
             "[test]\nhold_out = [4]",
         )));
         let report = report_of(&found);
-        let mut held = report.residuals.iter().filter(|own| own.mode == 4);
-        let Some(held) = held.next() else { continue };
-        let own = held.shape.iter().chain([&held.frequency]).collect_vec();
+        let Some(held) = report.modes.iter().find(|own| own.mode == 4) else {
+            continue;
+        };
+        let shape = report.readings.iter().filter(|own| own.mode == 4);
+        let shape = shape.filter_map(|own| own.residual);
+        let own = shape.chain(held.residual).collect_vec();
         all += own.len();
         within += own.iter().filter(|own| own.abs() < NORMAL_95).count();
         missed += usize::from(
             report
-                .words()
+                .verdict
                 .contains("does not hold where it was not fitted"),
         );
     }
@@ -161,8 +164,8 @@ fn reach_at_the_end_is_what_its_factors_leave_of_the_bounds() {
 fn a_stopped_run_says_so_in_words_and_in_its_verdict() {
     let loaded = prepared(&mixed("paper"));
     let result = run(&loaded, |_| {}, || false).unwrap();
-    let report = Report::from_job(&loaded, Some(&result)).unwrap();
-    assert!(result.verdict.is_within || report.words().contains("It was stopped by request."));
+    let words = report_of(&result).verdict;
+    assert!(result.verdict.is_within || words.contains("It was stopped by request."));
 }
 
 /// With one sensor all shapes are alike: the order of frequencies decides, and every output says so.
@@ -180,7 +183,7 @@ fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
     assert_eq!(exact.pairing.analysis_mode, [0, 1, 2]);
     let trust = trust_in(&loaded);
     assert_eq!(about(&trust, "undecided"), ["1", "2", "3"]);
-    let all = unbroken(&render::text(&[trust_table(&trust)]));
+    let all = unbroken(&render::text(&[trust_table("", &trust)]));
     assert!(
         all.contains("they are paired by their frequencies."),
         "{all}"

@@ -4,7 +4,7 @@ use super::job_concerns::tested;
 use super::twice::universal;
 use crate::common::jobs::unbroken;
 use crate::prelude::*;
-use corfem::present::tables::job::model_table;
+use corfem::present::report::facts;
 
 fn before(files: &Files) -> Vec<Concern> {
     trust_in(&prepared(files)).all().to_vec()
@@ -31,9 +31,9 @@ fn line(all: &[Concern], names: &[&str]) -> String {
 
 /// A fact of a job's model.
 fn fact(files: &Files, name: &str) -> String {
-    let table = model_table(&prepared(files)).unwrap();
-    let row = table.rows.iter().find(|row| row.label == name);
-    row.unwrap().cells[0].computed()
+    let facts = facts(&prepared(files)).unwrap();
+    let fact = facts.into_iter().find(|own| own.fact == name);
+    fact.unwrap().value
 }
 
 /// The same before the first step, of another job with its only parameter in bounds.
@@ -501,7 +501,7 @@ fn words_agree_with_numbers() {
     let deviations = |own: &str| format!("shape_deviation,,,,{}", own.repeat(8));
     let (doubts, vague) = of(&deviations(",0.01"), &deviations(",1"));
     let unchecked =
-        "Not checked: readings of sensors (by these deviations a reversed sensor would not show).";
+        "Not checked: readings of sensors (by these deviations a reversed sensor would not show)";
     assert!(doubts.is_empty() && vague.contains(unchecked), "{vague}");
     let (doubts, turned) = of("\n5,x,", "\n5,-x,");
     let edit = "Sensor 5 x reversed? Give its row the other sign in t0.002_0.csv. ";

@@ -5,9 +5,7 @@ use crate::common::jobs::said as said_of;
 use crate::common::jobs::{of_whole, run, unbroken};
 use crate::prelude::*;
 use corfem::job::HeldOut;
-use corfem::present::json;
 use corfem::present::page::report_page;
-use corfem::present::tables::report::minima_table;
 use corfem::weighted::identifiability::PRIOR_DEVIATION;
 use std::cell::Cell;
 
@@ -46,29 +44,25 @@ fn several_starts_name_their_minima_in_every_output() {
     let mut found = ran(&comparing(rods(), "starts = 4"));
     for failed in [0, 2] {
         let report = report_of(&found);
-        let table = minima_table(&report).unwrap();
-        let labels = table.rows.iter().map(|row| &row.label[..]).collect_vec();
-        assert_eq!(labels, ["chi-squared", "starts", "a", "b"]);
-        let text = render::text(from_ref(&table));
-        let page = report_page(&report, &[table], "corfem correlate job.toml", "").unwrap();
+        let [text, page] = [text(&report.brief()), report_page(&report).unwrap()];
         let words = format!("{failed} starts failed.");
-        assert!(text.contains(&words) && page.contains(&words), "{text}");
-        assert!(page.contains("Minima that noise allows"));
-        let document = json::report(&report).unwrap();
-        let minima = &document["minima"];
-        let starts = (&minima[0]["starts"], minima.get(1));
+        for shown in [&text, &page] {
+            assert!(shown.contains(&words) && shown.contains("Minima that noise allows"));
+        }
+        let [minimum] = &report.minima[..] else {
+            panic!("one minimum")
+        };
         assert_eq!(
-            (starts, &document["failed_starts"]),
-            ((&json!(4), None), &json!(failed))
+            (minimum.starts, &minimum.factors),
+            (4, &found.found.factors)
         );
-        assert_eq!(minima[0]["factors"], json!(found.found.factors));
-        let chi_squared = minima[0]["chi_squared"].as_f64().unwrap();
-        assert!(relative_error(chi_squared, found.misfit.chi_squared) < MATRIX_ROUND_OFF);
+        assert!(relative_error(minimum.chi_squared, found.misfit.chi_squared) < MATRIX_ROUND_OFF);
         if let History::GaussNewton(Some(steps)) = &mut found.found.history {
             steps.starts = vec![None; 2];
         }
     }
-    assert!(minima_table(&report_of(&ran(&rods()))).is_none());
+    let single = text(&report_of(&ran(&rods())).brief());
+    assert!(!single.contains("Minima that noise allows"));
 }
 
 /// A test is no test where any model would pass: with fewer numbers than factors, with so few that three times the noise would rather be
@@ -78,9 +72,8 @@ fn a_test_that_no_model_can_fail_confirms_nothing() {
     let outcome = |entries: &str| {
         let found = ran(&comparing(exact(rods()), entries));
         (
-            found.verdict.outcome,
             found.verdict.is_within,
-            report_of(&found).answer() + &report_of(&found).words(),
+            report_of(&found).answer + &report_of(&found).verdict,
         )
     };
     for (entries, reason) in [
@@ -97,15 +90,17 @@ fn a_test_that_no_model_can_fail_confirms_nothing() {
             "so few numbers would show 46 %",
         ),
     ] {
-        let (outcome, is_within, words) = outcome(entries);
-        assert_eq!((outcome, is_within), (Outcome::Untested, false), "{words}");
-        assert!(words.starts_with("The test confirms nothing: "), "{words}");
+        let (is_within, words) = outcome(entries);
+        assert!(
+            !is_within && words.starts_with("The test confirms nothing: "),
+            "{words}"
+        );
         for said in [reason, "Nothing to judge by", "the test confirms nothing"] {
             assert!(words.contains(said), "{words}");
         }
     }
-    let (outcome, is_within, words) = outcome("");
-    assert_eq!((outcome, is_within), (Outcome::Tolerance, true), "{words}");
+    let (is_within, words) = outcome("");
+    assert!(is_within, "{words}");
 }
 
 /// A mode that is held out has no part in the factors, however wrong its frequency, and is told of.
@@ -121,7 +116,7 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
     };
     let [one, off] = [rods(), third_higher(rods())].map(|files| ran(&held(files, "[3]")));
     assert_alike(&one.found.factors, &off.found.factors, ROUND_OFF);
-    let held_of = |found: &JobResult| report_of(found).held_out;
+    let held_of = |found: &JobResult| found.found.held_out().unwrap();
     let [right, wrong] = [&one, &off].map(|found| {
         assert_eq!(about(&found.trust, "held-out-3"), ["3"]);
         let [
@@ -139,11 +134,7 @@ fn a_mode_held_out_is_compared_and_not_fitted() {
     let apart = (1.0 + right[1] / 100.0) / (1.0 + wrong[1] / 100.0);
     assert_within(apart, 1.02, 1e-6);
     // The answer tells it apart from the others, whose errors are those of a job without it.
-    let answer = |found: &JobResult| {
-        Report::from_job(&found.found.prepared, Some(found))
-            .unwrap()
-            .answer()
-    };
+    let answer = |found: &JobResult| report_of(found).answer;
     let without = with(
         third_higher(rods()),
         "job.toml",
@@ -201,32 +192,27 @@ fn residuals_that_noise_would_not_leave_are_said() {
     assert!(!below(&alone(B)));
 }
 
-/// Interval ends, residuals by sensor and mode, and how every start ended stand in the document.
+/// Interval ends, residuals by sensor and mode, and how every start ended stand in the rows.
 #[test]
-fn the_document_has_the_ends_of_intervals_the_residuals_and_how_starts_ended() {
+fn the_rows_have_the_ends_of_intervals_the_residuals_and_how_starts_ended() {
     let found = ran(&comparing(rods(), "starts = 3"));
-    let document = json::report(&report_of(&found)).unwrap();
-    for (e, interval) in found.intervals.iter().enumerate() {
-        let said = &document["intervals"][e];
-        match interval {
-            Ok(ends) => assert_eq!(*said, json!({ "lower": ends.lower, "upper": ends.upper })),
-            Err(_) => assert!(said["withheld"].is_string(), "{said}"),
-        }
+    let report = report_of(&found);
+    for (row, interval) in report.parameters.iter().zip(&found.intervals) {
+        let ends = interval.as_ref().ok();
+        assert_eq!(
+            row.low.zip(row.high),
+            ends.map(|own| (own.lower, own.upper))
+        );
+        assert!(ends.is_some() || !row.remark.is_empty());
     }
     let all = residuals(&found.found.last, &found.found.prepared.weights()).unwrap();
-    let told = (0..3).flat_map(|mode| {
-        let mode = &document["residuals"][mode];
-        let shape = mode["shape"].as_array().unwrap();
-        once(&mode["frequency"])
-            .chain(shape)
-            .map(|own| own.as_f64().unwrap())
-    });
-    assert_eq!(told.collect_vec(), all.as_slice());
-    let starts = document["starts"].as_array().unwrap();
-    assert_eq!(starts.len(), 3);
-    let has_ended =
-        |start: &Value| start["stop"] == "gradient" && start["analyses"].as_u64() > Some(1);
-    assert!(starts.iter().all(has_ended));
+    let shapes = report.readings.chunks(3).zip(&report.modes);
+    let told = shapes
+        .flat_map(|(shape, mode)| once(mode.residual).chain(shape.iter().map(|own| own.residual)));
+    assert_eq!(told.flatten().collect_vec(), all.as_slice());
+    assert_eq!(report.starts.len(), 3);
+    let mut starts = report.starts.iter().flatten();
+    assert!(starts.all(|own| own.stop == WeightedStop::Gradient && own.analyses > 1));
 }
 
 /// Without a step because none is needed, without a step because none is possible, and after the best that one factor can do. At a bound
@@ -234,20 +220,20 @@ fn the_document_has_the_ends_of_intervals_the_residuals_and_how_starts_ended() {
 #[test]
 fn a_verdict_tells_what_is_good_from_what_cannot_be_better() {
     let bounded = alone("elements = [1]\nlower = 1.0\nupper = 2.0");
-    for (files, outcome, is_first, at_bound) in [
-        (exact(rods()), Outcome::Tolerance, true, &[][..]),
-        (bounded, Outcome::Nothing, true, &[0]),
-        (alone(B), Outcome::LocalMinimum, false, &[]),
-        (rods_with(B, EACH), Outcome::Tolerance, false, &[]),
+    for (files, is_within, is_first, at_bound) in [
+        (exact(rods()), true, true, &[][..]),
+        (bounded, false, true, &[0]),
+        (alone(B), false, false, &[]),
+        (rods_with(B, EACH), true, false, &[]),
     ] {
         let found = ran(&files);
         let History::GaussNewton(Some(steps)) = found.found.history else {
             panic!("by steps")
         };
-        assert_eq!(found.verdict.is_within, outcome == Outcome::Tolerance);
+        assert!(found.verdict.end.is_stationary());
         assert_eq!(
-            (found.verdict.outcome, steps.best.iterations.is_empty()),
-            (outcome, is_first)
+            (found.verdict.is_within, steps.best.iterations.is_empty()),
+            (is_within, is_first)
         );
         assert_eq!(found.verdict.at_bound, at_bound);
         for e in found.verdict.at_bound {
@@ -389,7 +375,7 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
         (told.len(), found)
     };
     let (count, first) = stopped_after(1);
-    assert_eq!((count, first.verdict.outcome), (1, Outcome::Request));
+    assert_eq!((count, first.verdict.end), (1, End::Request));
     assert_eq!(first.found.factors, [1.0; 3]);
     let (count, second) = stopped_after(2);
     assert!(
@@ -398,11 +384,11 @@ fn a_stopped_correlation_gives_the_best_that_it_has_told() {
     );
     let exact = run(&prepared(&exact(rods())), |_| {}, || false).unwrap();
     assert!(exact.found.is_interrupted && !exact.verdict.is_within);
-    assert_eq!(exact.verdict.outcome, Outcome::Request);
+    assert_eq!(exact.verdict.end, End::Request);
     let paper = rods_with("gauss_newton", "paper");
     for (files, is_requested) in [(self::exact(paper.clone()), false), (paper, true)] {
         let found = run(&prepared(&files), |_| {}, || false).unwrap();
-        assert_eq!(found.verdict.outcome == Outcome::Request, is_requested);
+        assert_eq!(found.verdict.end == End::Request, is_requested);
     }
 }
 

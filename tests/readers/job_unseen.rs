@@ -157,7 +157,7 @@ properties! {
             prop_assert!(relative_error(one, other) < SAME, "{one} {other}");
         }
         prop_assert_eq!(said(&alone), said(&beside));
-        prop_assert_eq!(alone.verdict.outcome, beside.verdict.outcome);
+        prop_assert_eq!(alone.verdict.end, beside.verdict.end);
         prop_assert_eq!(alone.intervals.len(), beside.intervals.len());
         for (one, other) in alone.intervals.iter().zip(&beside.intervals) {
             prop_assert_eq!(one.is_ok(), other.is_ok());
@@ -176,11 +176,11 @@ properties! {
         let ([alone, beside], _) = alone_and_beside(seed, kind, 1e-8);
         prop_assert_eq!(alone.verdict.is_within, beside.verdict.is_within);
         // Where steps end short of a minimum is a matter of the last digit.
-        let is_short = |job: &JobResult| job.verdict.outcome == Outcome::Short;
+        let is_short = |job: &JobResult| job.verdict.end == End::Short;
         if is_short(&alone) || is_short(&beside) {
             return Ok(());
         }
-        prop_assert_eq!(alone.verdict.outcome, beside.verdict.outcome);
+        prop_assert_eq!(alone.verdict.end, beside.verdict.end);
         let both = alone.found.factors.iter().zip(&beside.found.factors);
         for ((one, other), deviation) in both.zip(&alone.seen.deviations) {
             // A factor that the test hardly sees is as free as its deviation says.

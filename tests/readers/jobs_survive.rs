@@ -112,13 +112,7 @@ fn mutated(files: &Files, draws: &mut Draws) -> Vec<(String, Vec<u8>)> {
 fn corrected(path: &Path) -> Result<bool, PresentError> {
     let loaded = prepare(path)?;
     let trust = Trust::before(&loaded)?;
-    let before = Report::from_job(&loaded, None)?;
-    let tables = [
-        trust_table(&trust),
-        places_table(&loaded.loaded, None)?,
-        paired_table(&before)?,
-        suspects_table(&loaded),
-    ];
+    let tables = check_tables(&loaded, &trust)?;
     assert!(!render::text(&tables).is_empty());
     let left = Cell::new(12);
     let result = run(
@@ -129,17 +123,10 @@ fn corrected(path: &Path) -> Result<bool, PresentError> {
             left.get() > 0
         },
     )?;
-    let report = Report::from_job(&loaded, Some(&result))?;
-    let tables = [
-        trust_table(&result.trust),
-        paired_table(&report)?,
-        factor_table(&report),
-        history_table(&report),
-        places_table(&loaded.loaded, Some(&result))?,
-    ];
-    assert!(!render::csv(&tables).is_empty() && !render::text(&tables).is_empty());
-    json::own_document(json::report(&report)?)?;
-    report_page(&report, &tables[4..], "corfem", "")?;
+    let report = Report::new(&result, "corfem")?;
+    assert!(!report.csv().is_empty() && !render::text(&report.brief()).is_empty());
+    json::document(json::OWN_UNITS, &report)?;
+    report_page(&report)?;
     loaded.loaded.corrected_model(&result.found.factors)?;
     Ok(result
         .found

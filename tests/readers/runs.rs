@@ -287,12 +287,12 @@ fn a_look_ends_in_3_exactly_where_a_doubt_stands() {
             continue;
         };
         let has = |grade| {
-            let mut all = found["trust"].as_array().unwrap().iter();
+            let mut all = found["concerns"].as_array().unwrap().iter();
             all.any(|own| own["grade"] == grade)
         };
         let status = if has("doubt") { 3 } else { 0 };
         assert_eq!(output.status.code(), Some(status), "{name}");
-        assert!(!has("left_out"), "{name}");
+        assert!(!has("left out"), "{name}");
     }
 }
 

@@ -65,7 +65,6 @@ pub mod sx_assignment;
 pub mod sx_expansion;
 pub mod sx_intervals;
 pub mod sx_localization;
-pub mod sx_metrics;
 pub mod sx_misfit;
 mod sx_next_measurement;
 pub mod sx_preflight;

@@ -1,8 +1,8 @@
 //! The verdict on a correlation.
 
 use crate::common::jobs::run;
+use crate::paper::words::verdict_in_words;
 use crate::prelude::*;
-use corfem::present::verdict::verdict_in_words;
 
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 
@@ -23,19 +23,16 @@ fn judged(chain: &Chain, truth: &[f64], settings: &Settings) -> (Correlation, Ve
 #[test]
 fn every_outcome_is_said_as_what_it_is() {
     let (_, within) = chain_with(|_| {});
-    assert_eq!(
-        (within.outcome, within.is_within),
-        (Outcome::Tolerance, true)
-    );
+    assert_eq!((within.end, within.is_within), (End::Tolerance, true));
     assert!(verdict_in_words(&within, &[], &[]).starts_with("Correlated: error sum "));
     let (_, capped) = chain_with(|settings| {
         settings.most_passes = 1;
         settings.inner.iterations = 1;
     });
-    assert_eq!((capped.outcome, capped.is_within), (Outcome::Cap, false));
+    assert_eq!((capped.end, capped.is_within), (End::Cap, false));
     assert!(verdict_in_words(&capped, &[], &[]).contains("Try more iterations or passes."));
     let (_, none) = chain_with(|settings| settings.most_passes = 0);
-    assert_eq!((none.outcome, none.is_within), (Outcome::Nothing, false));
+    assert_eq!((none.end, none.is_within), (End::Nothing, false));
     assert!(verdict_in_words(&none, &[], &[]).contains("No step from the first model lowered it"));
     // Bounds that hold the truth out end in a local minimum at the bound.
     let (chain, ranges) = (
@@ -62,10 +59,7 @@ fn every_outcome_is_said_as_what_it_is() {
     )
     .unwrap();
     let held = verdict_of(&held, &chain_problem(&chain, &TRUTH), &ranges);
-    assert_eq!(
-        (held.outcome, held.is_within),
-        (Outcome::LocalMinimum, false)
-    );
+    assert_eq!((held.end, held.is_within), (End::LocalMinimum, false));
     assert_eq!(held.at_bound, [0]);
     let words = verdict_in_words(
         &held,
@@ -86,10 +80,7 @@ fn a_right_model_that_is_stepped_once_is_a_local_minimum_within_tolerance() {
         ..Settings::default()
     };
     let (_, found) = judged(&Chain::uniform(3), &[1.0; 3], &settings);
-    assert_eq!(
-        (found.outcome, found.is_within),
-        (Outcome::LocalMinimum, true)
-    );
+    assert_eq!((found.end, found.is_within), (End::LocalMinimum, true));
 }
 
 /// A frequency without a shape sees of a parameter what part of its mode's stiffness it has, whatever the unit.
@@ -206,6 +197,6 @@ fn an_element_in_no_test_mode_is_named_as_unseen() {
 fn case_4_is_never_called_within_tolerance() {
     let result = case_run(&case_of(4));
     let verdict = Verdict::of_case(&result);
-    assert_eq!((verdict.outcome, verdict.is_within), (Outcome::Cap, false));
+    assert_eq!((verdict.end, verdict.is_within), (End::Cap, false));
     assert!(!result.correlation.converged);
 }

@@ -1,6 +1,6 @@
 //! The figures of the box and of the paper's cases, from what the runs gave.
 
-use super::super::report::case_report;
+use super::super::report::CaseReport;
 use super::super::tables::unlimited::unlimited_factors;
 use super::factors::{DrawnFactor, Factors};
 use super::structure::draw_structure;
@@ -8,7 +8,7 @@ use super::{Figure, report_figures};
 use super::{box_elements, cover_gages};
 use corfem::present::PresentError;
 use corfem::present::table::Digits;
-use corfem::torque_box::wing_box::TEST_GAGE;
+use corfem::torque_box::wing_box::{TEST_GAGE, dynamic_points};
 use corfem::torque_box::{CASES, Case, CaseResult};
 
 /// The case that the box is shown with before and after its correlation, and whose first pass can be played with.
@@ -24,8 +24,8 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
         let case = &first.case;
         let caption = "Cases 1 to 4: the wing torque box with its structural and dynamic points (the paper's Figure 2).";
         let title = "Cases 1 to 4: the wing torque box, its structural and dynamic points";
-        let report = case_report(first)?.with_structure(case.model()?.structure());
-        let drawn = draw_structure("box_points", title, &report)?;
+        let (model, points) = (case.model()?, dynamic_points(&case.reconstruction)?);
+        let drawn = draw_structure("box_points", title, model.structure(), &points)?;
         figures.push(Figure::drawn("box_points", caption, &drawn));
         // From the second case on covers are membranes.
         let case = &results.get(1).unwrap_or(first).case;
@@ -54,7 +54,7 @@ pub fn case_figures(results: &[CaseResult]) -> Result<Vec<Figure>, PresentError>
 /// derivatives.
 fn add_figures_of(result: &CaseResult, figures: &mut Vec<Figure>) -> Result<(), PresentError> {
     let case = result.case.number;
-    let mut all = report_figures(&case_report(result)?)?;
+    let mut all = report_figures(&CaseReport::new(result))?;
     for (name, number) in [
         ("case_1_errors", 5),
         ("case_1_mode_shapes", 6),

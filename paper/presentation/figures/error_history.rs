@@ -2,7 +2,8 @@
 
 use super::canvas::*;
 use corfem::method::error_sum::Errors;
-use corfem::present::report::{Report, Stage};
+use corfem::method::outer_loop::Pass;
+use corfem::torque_box::CaseResult;
 use plotters::prelude::{BindKeyPoints, IntoLogRange};
 
 /// The SRSS errors of one pass, fractions.
@@ -16,30 +17,33 @@ struct PassHistory {
     inner: Vec<Errors>,
     /// Errors of the exact check at the end of the pass.
     check: Errors,
-    /// Tolerance of its inner loop on the error sum, a fraction, if known.
-    tolerance: Option<f64>,
+    /// Tolerance of its inner loop on the error sum, a fraction.
+    tolerance: f64,
 }
 
-/// The history of a correlation by inner loops.
-fn error_history(report: &Report) -> Vec<PassHistory> {
-    let mut from = 0;
-    let history = |(row, stage): (usize, &Stage)| {
-        let inner = report.inner_errors(row);
-        let to = from + inner.len() - 1;
-        let pass = PassHistory {
+/// The history of a case's passes.
+fn error_history(result: &CaseResult) -> Vec<PassHistory> {
+    let (run, settings) = (&result.correlation, &result.case.settings);
+    let (mut from, mut before) = (0, run.initial.errors);
+    let history = |(row, pass): (usize, &Pass)| {
+        let iterations = pass.inner.iterations.iter();
+        let to = from + iterations.len();
+        let own = PassHistory {
             from,
             to,
-            inner,
-            check: stage.check.errors,
-            tolerance: report.settings.as_ref().map(|settings| match row {
+            inner: std::iter::once(before)
+                .chain(iterations.map(|own| own.errors))
+                .collect(),
+            check: pass.check.errors,
+            tolerance: match row {
                 0 => settings.inner.tolerance,
                 _ => settings.later_inner_tolerance,
-            }),
+            },
         };
-        from = to;
-        pass
+        (from, before) = (to, pass.check.errors);
+        own
     };
-    report.stages.iter().enumerate().map(history).collect()
+    run.passes.iter().enumerate().map(history).collect()
 }
 
 /// The three errors as drawn: name, value, color, form and dash.
@@ -65,9 +69,9 @@ const MARGINS: [f64; 4] = [72.0, 150.0, 64.0, 48.0];
 const HEIGHT: f64 = 426.0;
 
 /// The history as SVG: errors on a logarithmic scale, passes side by side.
-pub fn draw(name: &str, title: &str, report: &Report) -> Result<String, PresentError> {
+pub fn draw(name: &str, title: &str, result: &CaseResult) -> Result<String, PresentError> {
     svg(name, title, HEIGHT, |area| {
-        draw_on(area, &error_history(report))
+        draw_on(area, &error_history(result))
     })
 }
 
@@ -127,11 +131,9 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
     for (row, pass) in passes.iter().enumerate() {
         let (from, to, number) = (pass.from, pass.to, row + 1);
         let (begin, end) = (place(from, high), place(to, high));
-        let name = match (end.0 - begin.0, pass.tolerance) {
-            (wide, Some(most)) if wide > 180.0 => {
-                format!("pass {number} (tolerance {:.1} %)", 100.0 * most)
-            }
-            _ => format!("pass {number}"),
+        let name = match end.0 - begin.0 > 180.0 {
+            true => format!("pass {number} (tolerance {:.1} %)", 100.0 * pass.tolerance),
+            false => format!("pass {number}"),
         };
         write(
             area,
@@ -140,13 +142,12 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
             MIDDLE,
         )?;
         line(area, &[place(to, low), end], Pen::dashed(GRAY, 1.0))?;
-        if let Some(most) = pass.tolerance.map(|most| percent(most).clamp(low, high)) {
-            line(
-                area,
-                &[place(from, most), place(to, most)],
-                Pen::solid(GRAY, 1.4),
-            )?;
-        }
+        let most = percent(pass.tolerance).clamp(low, high);
+        line(
+            area,
+            &[place(from, most), place(to, most)],
+            Pen::solid(GRAY, 1.4),
+        )?;
     }
     name_upright(
         area,
@@ -182,11 +183,8 @@ fn draw_on(area: &Area, passes: &[PassHistory]) -> Drawn {
     let open = Mark(Form::Circle, 5.5, Some(WHITE), Pen::solid(INK, 1.8));
     let left = left + 8.0;
     marked(area, (left, 18.0), open, "large, open: exact solution")?;
-    if passes.iter().any(|pass| pass.tolerance.is_some()) {
-        let (x, y) = (left + 242.0, 18.0);
-        line(area, &[(x, y), (x + 34.0, y)], Pen::solid(GRAY, 1.4))?;
-        let words = "tolerance of the pass on the sum";
-        write(area, words, (x + 41.0, y), START)?;
-    }
-    Ok(())
+    let (x, y) = (left + 242.0, 18.0);
+    line(area, &[(x, y), (x + 34.0, y)], Pen::solid(GRAY, 1.4))?;
+    let words = "tolerance of the pass on the sum";
+    write(area, words, (x + 41.0, y), START)
 }

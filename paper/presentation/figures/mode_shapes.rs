@@ -1,9 +1,11 @@
 //! Mode shapes of the test, the first and the corrected model as color on panels (Figure 6).
 
+use super::super::report::CaseReport;
 use super::canvas::*;
 use super::view::View;
-use corfem::present::frame::{DrawnMode, DrawnModes, Frame};
+use corfem::method::error::Error;
 use corfem::present::table::Digits;
+use corfem::weighted::comparison::ExactResult;
 use nalgebra::Vector3;
 
 /// Height above all modes, and of one mode's row, px.
@@ -14,40 +16,61 @@ const ACROSS: f64 = 5.0;
 /// The end of a path of neighbors of one color, which the plotting library does not know.
 const CLOSED: &str = "\"/>\n";
 
-/// The modes whose shape in the first model is at least as far from the test's as the mean over all.
-pub fn differing(drawn: &DrawnModes) -> DrawnModes {
-    let far = |mode: &DrawnMode| -> f64 {
-        let known = drawn.frame.known.keys();
-        known
-            .map(|&node| (mode.moved[1][node] - mode.moved[0][node]).norm_squared())
-            .sum()
+/// A test mode and its partners at the dynamic points: of test, first and corrected model.
+#[derive(Debug, Clone)]
+pub struct DrawnMode {
+    /// Number of the mode, from one.
+    pub number: usize,
+    /// Frequencies, Hz.
+    pub hertz: [f64; 3],
+    /// Displacements upward, in units of the largest of the shape.
+    pub moved: [Vec<f64>; 3],
+}
+
+/// The modes of a case whose shape in the first model is at least as far from the test's as the mean over all.
+///
+/// # Errors
+/// Errors of the pairs.
+pub fn differing(report: &CaseReport) -> Result<Vec<DrawnMode>, Error> {
+    let compared = report.compared();
+    let paired = |check: &ExactResult| check.pairing.paired(&check.modes);
+    let states = [
+        report.result.test.clone(),
+        paired(&report.first)?,
+        paired(&report.last)?,
+    ];
+    let mode = |mode: usize| DrawnMode {
+        number: compared.numbers[mode],
+        hertz: states.each_ref().map(|modes| modes.frequencies_hz()[mode]),
+        moved: states.each_ref().map(|modes| {
+            let shape = modes.shapes().column(mode);
+            (shape / shape.amax()).iter().copied().collect()
+        }),
     };
-    let mean = drawn.modes.iter().map(far).sum::<f64>() / drawn.modes.len() as f64;
-    let differs = |mode: &&DrawnMode| far(mode) >= mean;
-    DrawnModes {
-        frame: drawn.frame.clone(),
-        modes: drawn.modes.iter().filter(differs).cloned().collect(),
-    }
+    let modes: Vec<DrawnMode> = (0..compared.numbers.len()).map(mode).collect();
+    let far = |mode: &DrawnMode| apart(mode, 1).map(|off| off * off).sum::<f64>();
+    let mean = modes.iter().map(far).sum::<f64>() / modes.len() as f64;
+    Ok(modes.into_iter().filter(|mode| far(mode) >= mean).collect())
 }
 
 /// Motions of a state of a mode without those of the test.
-fn apart(mode: &DrawnMode, state: usize) -> impl Iterator<Item = Vector3<f64>> {
+fn apart(mode: &DrawnMode, state: usize) -> impl Iterator<Item = f64> {
     let pairs = mode.moved[state].iter().zip(&mode.moved[0]);
     pairs.map(|(own, test)| own - test)
 }
 
-/// The farthest that a place is from the test's in a state of any mode, in units of the largest motion of a shape.
-pub fn farthest(drawn: &DrawnModes, state: usize) -> f64 {
-    let all = drawn.modes.iter().flat_map(|mode| apart(mode, state));
-    all.map(|motion| motion.amax()).fold(0.0, f64::max)
+/// The farthest that a point is from the test's in a state of any mode, in units of the largest motion of a shape.
+pub fn farthest(modes: &[DrawnMode], state: usize) -> f64 {
+    let all = modes.iter().flat_map(|mode| apart(mode, state));
+    all.map(f64::abs).fold(0.0, f64::max)
 }
 
 /// A column of a mode: its name, words on its size, and its motions.
-type Column = (String, String, Vec<Vector3<f64>>);
+type Column = (String, String, Vec<f64>);
 
 /// Test, first and corrected model, and what the two differ from the test by, the larger of these with its most in the full color.
 fn columns(mode: &DrawnMode) -> [Column; 5] {
-    let most = [1, 2].map(|state| apart(mode, state).map(|it| it.amax()).fold(0.0, f64::max));
+    let most = [1, 2].map(|state| apart(mode, state).map(f64::abs).fold(0.0, f64::max));
     let full = most[0].max(most[1]).max(f64::MIN_POSITIVE);
     [0, 1, 2, 3, 4].map(|column: usize| {
         let is_difference = column > 2;
@@ -65,17 +88,13 @@ fn columns(mode: &DrawnMode) -> [Column; 5] {
 }
 
 /// The shapes as SVG, one row a mode: test, first and corrected model, and the differences of the two from the test.
-pub fn draw(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, PresentError> {
-    let frame = &drawn.frame;
-    let nodes = &frame.nodes;
-    let closed = |panel: &Vec<usize>| panel.iter().chain(panel.first()).copied().collect();
-    let outlines: Vec<Vec<usize>> = frame.panels.iter().map(closed).collect();
-    let shown: Vec<Vector3<f64>> = frame
-        .panels
-        .iter()
-        .flatten()
-        .map(|&node| nodes[node])
-        .collect();
+pub fn draw(
+    modes: &[DrawnMode],
+    points: &[Vector3<f64>],
+    name: &str,
+    title: &str,
+) -> Result<String, PresentError> {
+    let outlines = BAYS.map(|[a, b, c, d]| vec![a, b, c, d, a]);
     let words = paragraph(
         "Blue moves along +z, red along −z, the fainter, the less; 1 is the largest motion of a shape. The larger difference of a mode has \
          the full color.",
@@ -84,10 +103,10 @@ pub fn draw(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, Prese
     let pitch = 26.0 + HIGH;
     let cell = (WIDE - EDGE) / ACROSS;
     let mut cells = String::new();
-    let height = head + pitch * drawn.modes.len() as f64;
+    let height = head + pitch * modes.len() as f64;
     let svg = svg(name, title, height, |area| {
         write_lines(area, &words, (EDGE, 20.0), START)?;
-        for (row, mode) in drawn.modes.iter().enumerate() {
+        for (row, mode) in modes.iter().enumerate() {
             let above = head + pitch * row as f64;
             let number = format!("Mode {}", mode.number);
             write(area, &number, (EDGE, above - 8.0), START.bold())?;
@@ -96,9 +115,9 @@ pub fn draw(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, Prese
                 write(area, &name, (left, above + 12.0), START)?;
                 write(area, &value, (left, above + 28.0), START.small())?;
                 let room = [left, above + 40.0, cell - EDGE, HIGH - 54.0];
-                let view = View::plan().fitted(&shown, room);
+                let view = View::plan().fitted(points, room);
                 let mut last = None;
-                for (corners, motion) in panel_parts(frame, &moved) {
+                for (corners, motion) in panel_parts(points, &moved) {
                     let color = hex(toned(motion));
                     if last.as_ref() != Some(&color) {
                         cells += &format!(
@@ -113,7 +132,7 @@ pub fn draw(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, Prese
                     let corners: Vec<String> = corners.iter().map(corner).collect();
                     cells += &format!("M{}z", corners.join(" "));
                 }
-                view.lines(area, &outlines, nodes, Pen::solid(SILVER, 0.8))?;
+                view.lines(area, &outlines, points, Pen::solid(SILVER, 0.8))?;
             }
         }
         Ok(())
@@ -125,17 +144,18 @@ pub fn draw(drawn: &DrawnModes, name: &str, title: &str) -> Result<String, Prese
     Ok(svg.replacen("<text ", &(cells.unwrap_or_default() + "<text "), 1))
 }
 
-/// Parts of a panel along either side.
+/// Corners of the bays between the dynamic points, of which three stand on every chord; nothing is measured nearer the root.
+const BAYS: [[usize; 4]; 4] = [[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]];
+/// Parts of a bay along either side.
 const PARTS: usize = 6;
 
 /// A place and its displacement upward.
 type Corner = (Vector3<f64>, f64);
 
-/// The panels in parts, each with its mean displacement upward; of one panel those of one color stand together.
-fn panel_parts(frame: &Frame, moved: &[Vector3<f64>]) -> Vec<(Vec<Vector3<f64>>, f64)> {
-    let of_panel = |panel: &Vec<usize>| {
-        let corner = |&node: &usize| (frame.nodes[node], moved[node].z);
-        let corners: Vec<Corner> = panel.iter().map(corner).collect();
+/// The bays in parts, each with its mean displacement upward; of one bay those of one color stand together.
+fn panel_parts(points: &[Vector3<f64>], moved: &[f64]) -> Vec<(Vec<Vector3<f64>>, f64)> {
+    let of_panel = |bay: [usize; 4]| {
+        let corners = bay.map(|point| (points[point], moved[point]));
         let colored = |cell: Vec<Corner>| {
             let motion = cell.iter().map(|corner| corner.1).sum::<f64>() / cell.len() as f64;
             (cell.into_iter().map(|corner| corner.0).collect(), motion)
@@ -144,14 +164,11 @@ fn panel_parts(frame: &Frame, moved: &[Vector3<f64>]) -> Vec<(Vec<Vector3<f64>>,
         cells.sort_by(|(_, one), (_, other)| one.total_cmp(other));
         cells
     };
-    frame.panels.iter().flat_map(of_panel).collect()
+    BAYS.into_iter().flat_map(of_panel).collect()
 }
 
-/// A panel of four corners in its parts, by its bilinear map; any other panel whole.
-fn cells(corners: Vec<Corner>) -> Vec<Vec<Corner>> {
-    let [a, b, c, d] = corners[..] else {
-        return vec![corners];
-    };
+/// A bay in its parts, by its bilinear map.
+fn cells([a, b, c, d]: [Corner; 4]) -> Vec<Vec<Corner>> {
     let at = |i: usize, j: usize| {
         let (s, t) = (i as f64 / PARTS as f64, j as f64 / PARTS as f64);
         let parts = [

@@ -1,36 +1,37 @@
 //! The figures of a case's correlation: its frequencies, its modes, its history and its derivatives.
 
+use super::super::report::CaseReport;
 use super::error_history;
 use super::factors::{DrawnFactor, Factors};
 use super::matrices::{HeatMap, draw_by_twos, draw_derivatives};
 use super::mode_shapes::{self, differing, farthest};
 use super::{Figure, numbers};
-use corfem::method::error::Error;
 use corfem::method::error_sum::Errors;
 use corfem::present::PresentError;
-use corfem::present::frame::DrawnModes;
-use corfem::present::report::Report;
-use corfem::present::table::Digits;
+use corfem::present::compared::{Agreement, Derivatives, Mode};
+use corfem::present::table::{Digits, HERTZ};
+use corfem::torque_box::wing_box::dynamic_points;
 use nalgebra::DMatrix;
 
-/// Every figure of a report: frequencies, errors against iteration, mode shapes, agreement of the modes before and after, and
-/// derivatives where there are any.
+/// Every figure of a case: frequencies, errors against iteration, mode shapes, agreement of the modes before and after, and derivatives.
 ///
 /// # Errors
-/// [`PresentError::Drawing`]; the errors of [`DrawnModes::from_report`] and [`Report::agreement`].
-pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
+/// [`PresentError::Drawing`]; the errors of the report's rows.
+pub fn report_figures(report: &CaseReport) -> Result<Vec<Figure>, PresentError> {
+    let (compared, derivatives) = (report.compared(), report.derivatives()?);
+    let (case, modes) = (&report.result.case, compared.modes()?);
     let mut figures = Vec::new();
     let mut add = |what: &str,
                    title: &str,
                    caption: &str,
                    draw: &dyn Fn(&str, &str) -> Result<String, PresentError>| {
-        let name = format!("{}_{what}", report.name);
-        let title = format!("{}: {title}", report.title);
-        let caption = format!("{}: {caption}.", report.title);
+        let name = format!("case_{}_{what}", case.number);
+        let title = format!("Case {}: {title}", case.number);
+        let caption = format!("Case {}: {caption}.", case.number);
         figures.push(Figure::drawn(&name, caption, &draw(&name, &title)?));
         Ok::<_, PresentError>(())
     };
-    let frequencies = frequencies(report);
+    let frequencies = frequencies(&modes);
     let most = |off: fn(&DrawnFactor) -> f64| {
         let off = frequencies.rows.iter().map(|row| off(row).abs());
         Digits::Fixed(2).write(off.fold(0.0, f64::max))
@@ -48,41 +49,38 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
     let caption = format!(
         "errors against iteration. The error sum falls from {} to {} %. Between exact solutions an inner loop steps by perturbation; at \
          the end of a pass the exact solution says what that was worth",
-        sum(&report.initial.errors),
-        sum(&report.corrected().errors)
+        sum(&report.first.errors),
+        sum(&report.last.errors)
     );
     add(
         "errors",
         "errors against iteration",
         &caption,
-        &|name, title| error_history::draw(name, title, report),
+        &|name, title| error_history::draw(name, title, report.result),
     )?;
-    if let Some(modes) = DrawnModes::from_report(report)? {
-        let modes = differing(&modes);
-        let [first, last] = [1, 2].map(|state| Digits::Fixed(2).write(farthest(&modes, state)));
-        let caption = format!(
-            "mode shapes of the test, of the first and of the corrected model, where the first model's are farther from the test's \
-             than on average: by up to {first} of the largest motion, and the corrected model's by up to {last}; what lies between \
-             sensors is interpolated from those near it"
-        );
-        let title = "mode shapes that differ";
-        add("mode_shapes", title, &caption, &|name, title| {
-            mode_shapes::draw(&modes, name, title)
-        })?;
-    }
-    let maps = mode_agreement(report)?;
-    let [first, last] = [&report.initial, report.corrected()].map(|check| {
-        let found = report.agreement(check)?;
-        let pairs = found.partners.iter().enumerate();
-        let least = pairs
-            .map(|(j, i)| found.assurance[(i - 1, j)])
-            .fold(1.0, f64::min);
-        Ok::<_, PresentError>(Digits::Fixed(2).write(least))
-    });
+    let (drawn, points) = (differing(report)?, dynamic_points(&case.reconstruction)?);
+    let [first, last] = [1, 2].map(|state| Digits::Fixed(2).write(farthest(&drawn, state)));
+    let caption = format!(
+        "mode shapes of the test, of the first and of the corrected model, where the first model's are farther from the test's \
+         than on average: by up to {first} of the largest motion, and the corrected model's by up to {last}; what lies between \
+         sensors is interpolated from those near it"
+    );
+    let title = "mode shapes that differ";
+    add("mode_shapes", title, &caption, &|name, title| {
+        mode_shapes::draw(&drawn, &points, name, title)
+    })?;
+    let agreement = [
+        compared.agreement(&report.first)?,
+        compared.agreement(&report.last)?,
+    ];
+    let maps = mode_agreement(agreement);
+    let least = |mac: fn(&Mode) -> Option<f64>| {
+        Digits::Fixed(2).write(modes.iter().filter_map(mac).fold(1.0, f64::min))
+    };
+    let (first, last) = (least(|own| own.first_mac), least(|own| own.corrected_mac));
     let caption = format!(
         "cross-orthogonality and modal assurance criterion (MAC, not mass-weighted) of analysis and test modes, before and after. The \
-         least MAC of a pair is {} before and {} after",
-        first?, last?
+         least MAC of a pair is {first} before and {last} after"
     );
     let title = "analysis against test modes before and after";
     let notes = [
@@ -92,47 +90,40 @@ pub fn report_figures(report: &Report) -> Result<Vec<Figure>, PresentError> {
     add("agreement", title, &caption, &|name, title| {
         draw_by_twos(name, title, &maps, &notes)
     })?;
-    if let Some(maps) = derivatives(report) {
-        let sizes: Vec<f64> = maps[0]
-            .values
-            .row_iter()
-            .map(|row| row.iter().flatten().map(|value| value * value).sum())
-            .collect();
-        let named = |row: Option<usize>| {
-            row.and_then(|row| report.parameters.get(row))
-                .map_or("none", String::as_str)
-        };
-        let by_size = |&a: &usize, &b: &usize| sizes[a].total_cmp(&sizes[b]);
-        let caption = format!(
-            "derivatives of the frequencies and of the error sum at the first model. Parameter {} moves the frequencies most, {} least",
-            named((0..sizes.len()).max_by(by_size)),
-            named((0..sizes.len()).min_by(by_size)),
-        );
-        let title = "derivatives of the first model";
-        add("derivatives", title, &caption, &|name, title| {
-            draw_derivatives(name, title, &maps)
-        })?;
-    }
+    let maps = derivative_maps(&derivatives, &report.result.parameter_names);
+    let caption = derivatives_in_words(&maps[0]);
+    let title = "derivatives of the first model";
+    add("derivatives", title, &caption, &|name, title| {
+        draw_derivatives(name, title, &maps)
+    })?;
     Ok(figures)
 }
 
+/// Words for the parameters that move the frequencies most and least.
+fn derivatives_in_words(HeatMap { values, rows, .. }: &HeatMap) -> String {
+    let size = |row: &usize| -> f64 {
+        let row = values.row(*row);
+        row.iter().flatten().map(|value| value * value).sum()
+    };
+    let named = |row: Option<usize>| row.map_or("none", |row| &rows.1[row][..]);
+    let by_size = |a: &usize, b: &usize| size(a).total_cmp(&size(b));
+    format!(
+        "derivatives of the frequencies and of the error sum at the first model. Parameter {} moves the frequencies most, {} least",
+        named((0..values.nrows()).max_by(by_size)),
+        named((0..values.nrows()).min_by(by_size)),
+    )
+}
+
 /// Distances of the first and the corrected model's frequencies from the test's, percent.
-fn frequencies(report: &Report) -> Factors {
-    let tested = report.test.frequencies_hz().into_iter();
-    let ends = [&report.initial, report.corrected()].map(|check| check.frequencies_hz.iter());
-    let [first, last] = ends;
-    let row = |(mode, (hertz, (first, last))): (usize, (f64, (&f64, &f64)))| DrawnFactor {
-        name: format!(
-            "{}: {} Hz",
-            report.mode_number(mode),
-            Digits::Significant(4).write(hertz)
-        ),
-        value: 100.0 * (last / hertz - 1.0),
-        from: Some(100.0 * (first / hertz - 1.0)),
+fn frequencies(modes: &[Mode]) -> Factors {
+    let row = |own: &Mode| DrawnFactor {
+        name: format!("{}: {} Hz", own.mode, HERTZ.write(own.test_hz)),
+        value: own.corrected_error_percent,
+        from: Some(own.first_error_percent),
         ..DrawnFactor::default()
     };
     Factors {
-        rows: tested.zip(first.zip(last)).enumerate().map(row).collect(),
+        rows: modes.iter().map(row).collect(),
         limits: None,
         across: "frequency against the test's, percent",
         down: "test mode",
@@ -141,50 +132,29 @@ fn frequencies(report: &Report) -> Factors {
     }
 }
 
-/// Cross-orthogonality $V_F^t M V_G$ (4), where there is a mass, and modal assurance criterion of the exact solutions before and
-/// after, analysis modes by test modes.
-fn mode_agreement(report: &Report) -> Result<Vec<HeatMap>, Error> {
-    let map = |title: String, values: &DMatrix<f64>| {
-        let rows = ("analysis mode".to_owned(), numbers(values.nrows()));
-        let columns = (
-            "test mode".to_owned(),
-            mode_labels(report, report.test.len()),
-        );
-        HeatMap {
-            title,
-            rows,
-            columns,
-            values: values.map(Some),
-            full: 1.0,
-            written: (100.0, 0),
-        }
+/// Cross-orthogonality $V_F^t M V_G$ (4) and modal assurance criterion of the exact solutions before and after, analysis modes by test
+/// modes.
+fn mode_agreement(both: [Agreement; 2]) -> Vec<HeatMap> {
+    let map = |title: String, values: &DMatrix<f64>| HeatMap {
+        title,
+        rows: ("analysis mode".to_owned(), numbers(values.nrows())),
+        columns: ("test mode".to_owned(), numbers(values.ncols())),
+        values: values.map(Some),
+        full: 1.0,
+        written: (100.0, 0),
     };
-    let both = [
-        ("before", report.agreement(&report.initial)?),
-        ("after", report.agreement(report.corrected())?),
-    ];
-    let cross = both.iter().filter_map(|(when, found)| {
-        Some(map(
-            format!("Cross-orthogonality {when}, mass-weighted"),
-            found.orthogonality.as_ref()?,
-        ))
+    let both = || ["before", "after"].into_iter().zip(&both);
+    let cross = both().filter_map(|(when, found)| {
+        let title = format!("Cross-orthogonality {when}, mass-weighted");
+        Some(map(title, found.orthogonality.as_ref()?))
     });
-    let assurance = both
-        .iter()
-        .map(|(when, found)| map(format!("MAC {when}, not mass-weighted"), &found.assurance));
-    Ok(cross.chain(assurance).collect())
-}
-
-/// The numbers of the test modes in the test's file.
-fn mode_labels(report: &Report, count: usize) -> Vec<String> {
-    (0..count)
-        .map(|place| report.mode_number(place).to_string())
-        .collect()
+    let assurance =
+        both().map(|(when, found)| map(format!("MAC {when}, not mass-weighted"), &found.assurance));
+    cross.chain(assurance).collect()
 }
 
 /// Derivatives at the first model, parameters by test modes and by the error sum.
-fn derivatives(report: &Report) -> Option<[HeatMap; 2]> {
-    let derivatives = report.derivatives.as_ref()?;
+fn derivative_maps(derivatives: &Derivatives, names: &[String]) -> [HeatMap; 2] {
     let map = |title: &str, rows, columns: &str, labels, values: DMatrix<f64>| HeatMap {
         title: title.to_owned(),
         rows,
@@ -197,12 +167,12 @@ fn derivatives(report: &Report) -> Option<[HeatMap; 2]> {
     let error_sum = DMatrix::from_column_slice(error_sum.len(), 1, error_sum);
     let (percent, modes) = (
         "Percent of frequency for one percent of the parameter",
-        mode_labels(report, frequency.ncols()),
+        numbers(frequency.ncols()),
     );
-    Some([
+    [
         map(
             percent,
-            ("parameter".to_owned(), report.parameters.clone()),
+            ("parameter".to_owned(), names.to_vec()),
             "test mode",
             modes,
             frequency,
@@ -215,5 +185,5 @@ fn derivatives(report: &Report) -> Option<[HeatMap; 2]> {
             vec!["one percent of it".to_owned()],
             error_sum,
         ),
-    ])
+    ]
 }

@@ -2,8 +2,8 @@
 
 use super::canvas::*;
 use super::view::{AXES, View};
-use corfem::present::frame::Frame;
-use corfem::present::report::Report;
+use corfem::method::structure::{Grid, Point, Structure};
+use std::collections::{BTreeMap, BTreeSet};
 
 const SENSOR: Mark = Mark(
     Form::Square,
@@ -81,15 +81,57 @@ impl Names {
     }
 }
 
+/// Places of a structure, each once, and polylines that pass every edge of its elements once.
+fn edges(structure: &Structure) -> (Vec<Point>, Vec<Vec<usize>>) {
+    let (mut nodes, mut joined) = (Vec::new(), Vec::<BTreeSet<usize>>::new());
+    let mut place: BTreeMap<[u64; 3], usize> = BTreeMap::new();
+    for corners in structure.corners() {
+        let mut row = |at: &Point| {
+            // Minus zero and zero are the same place.
+            *place
+                .entry((*at).map(|part| (part + 0.0).to_bits()).into())
+                .or_insert_with(|| {
+                    nodes.push(*at);
+                    joined.push(BTreeSet::new());
+                    nodes.len() - 1
+                })
+        };
+        let rows: Vec<usize> = corners.iter().map(&mut row).collect();
+        for (&a, &b) in rows.iter().zip(rows.iter().cycle().skip(1)) {
+            joined[a].insert(b);
+            joined[b].insert(a);
+        }
+    }
+    let mut chains = Vec::new();
+    for start in 0..joined.len() {
+        while !joined[start].is_empty() {
+            let (mut chain, mut last) = (vec![start], start);
+            while let Some(next) = joined[last].pop_first() {
+                joined[next].remove(&last);
+                chain.push(next);
+                last = next;
+            }
+            chains.push(chain);
+        }
+    }
+    (nodes, chains)
+}
+
 /// The structure with its numbered grids, its supports and its sensors.
-pub fn draw_structure(name: &str, title: &str, report: &Report) -> Result<String, PresentError> {
-    let frame = Frame::from_report(report);
-    let grids = report.grids.iter().map(|(_, at)| at);
-    let all: Vec<_> = frame.nodes.iter().chain(grids).copied().collect();
+pub fn draw_structure(
+    name: &str,
+    title: &str,
+    structure: &Structure,
+    sensors: &[Point],
+) -> Result<String, PresentError> {
+    let (nodes, lines) = edges(structure);
+    let grids = structure.grids();
+    let is_held = |grid: &Grid| grid.constrained == [true; 3];
+    let all: Vec<_> = nodes.iter().chain(sensors).copied().collect();
     let room = [60.0, UPPER, WIDE - 120.0, DRAWING - UPPER - 30.0];
     let view = View::rising(DEPTH_DRAWN).fitted(&all, room);
     svg(name, title, DRAWING + 30.0, |area| {
-        view.lines(area, &frame.lines, &frame.nodes, Pen::solid(SILVER, 1.1))?;
+        view.lines(area, &lines, &nodes, Pen::solid(SILVER, 1.1))?;
         let mut x = EDGE;
         for (form, words) in [
             (SENSOR, "sensor"),
@@ -101,21 +143,20 @@ pub fn draw_structure(name: &str, title: &str, report: &Report) -> Result<String
         }
         let axes = format!("{AXES}; depth drawn {DEPTH_DRAWN:.0} times");
         write(area, &axes, (x, 18.0), START)?;
-        for at in &report.supports {
-            mark(area, view.place(*at), support(true))?;
+        for grid in grids.iter().filter(|grid| is_held(grid)) {
+            mark(area, view.place(grid.position), support(true))?;
         }
         let mut names = Names(Vec::new());
-        for sensor in &report.sensors {
-            if let Some(at) = sensor.place {
-                mark(area, view.place(at), SENSOR)?;
-                names.write(area, &sensor.name, view.place(at), VERMILION)?;
-            }
+        for (number, at) in (1..).zip(sensors) {
+            mark(area, view.place(*at), SENSOR)?;
+            names.write(area, &format!("D{number}"), view.place(*at), VERMILION)?;
         }
-        for (label, at) in &report.grids {
-            if !report.supports.contains(at) {
-                mark(area, view.place(*at), support(false))?;
+        for grid in grids {
+            let at = view.place(grid.position);
+            if !is_held(grid) {
+                mark(area, at, support(false))?;
             }
-            names.write(area, &label.to_string(), view.place(*at), BLUE)?;
+            names.write(area, &grid.label.to_string(), at, BLUE)?;
         }
         Ok(())
     })

@@ -1,7 +1,7 @@
 //! Figures and the project's Markdown texts as HTML.
 
 use super::super::figures::Figure;
-use corfem::present::page::html::escaped;
+use corfem::present::page::escaped;
 use pulldown_cmark::{Event, HeadingLevel, Options, Parser, Tag, TagEnd, html};
 
 /// A figure; `see` says before the caption what to look for.

@@ -4,23 +4,18 @@
 //! once.
 
 mod html;
-pub mod play;
 mod story;
 
 use super::figures::{Figure, SHOWN};
-use super::report::moving_case;
+use super::report::CaseReport;
 use super::tables::cases::{iteration_table, outcome_table, settings_table, summary, tables_of};
 use super::tables::{fewer_modes, paper_tables};
 use corfem::present::PresentError;
-use corfem::present::page::charts::factor_bars;
-use corfem::present::page::html::table;
-use corfem::present::page::moving::moving;
-use corfem::present::page::{document, made, named};
+use corfem::present::page::{document, in_script, made, named, table};
 use corfem::present::table::{Cell, Table};
 use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
 use corfem::torque_box::{Case, CaseResult};
 use html::{figure, figures, prose, section_of};
-use play::play;
 use story::story;
 
 /// The content of the page.
@@ -46,10 +41,6 @@ const LEAD: &str = "Element stiffnesses of a finite element model, corrected unt
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let answer = answer(contents)?;
     let mut parts = story(contents)?;
-    if let Some(shown) = contents.results.iter().find(|it| it.case.number == SHOWN) {
-        let heading = format!("Case {SHOWN}, by hand");
-        parts.insert(0, named("try", "Try it", &heading, play(shown)?));
-    }
     let (mut story_html, appendix): (String, usize) = (
         parts.iter().map(|(.., body)| body.as_str()).collect(),
         parts.len(),
@@ -140,11 +131,11 @@ fn answer(contents: &Contents) -> Result<String, PresentError> {
         }
     );
     if let Some(shown) = results.iter().find(|result| result.case.number == SHOWN) {
-        let report = moving_case(shown)?;
+        let report = CaseReport::new(shown);
         body += &format!(
-            "<div class=\"first\">\n{}{}</div>\n",
-            moving(&report)?,
-            factor_bars(&report)
+            "<div class=\"first\">\n{}<script>bars({})</script>\n</div>\n",
+            report.moving()?,
+            in_script(&report.parameters())?
         );
     }
     let shown = |what: &str| {

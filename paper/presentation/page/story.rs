@@ -1,12 +1,11 @@
 //! The page's words before its tables, from `paper/report.md`: every case with its figure, then the method.
 
 use super::super::figures::SHOWN;
-use super::super::report::moving_case;
+use super::super::report::CaseReport;
 use super::super::words::case_in_words;
 use super::Contents;
 use super::html::{figure, figures, prose};
 use corfem::present::PresentError;
-use corfem::present::page::moving::moving;
 use corfem::present::page::{Part, named};
 use corfem::torque_box::CaseResult;
 
@@ -32,7 +31,7 @@ fn part(text: &str, contents: &Contents) -> Result<Option<Part>, PresentError> {
         body += &outcome(result);
         // The first screen has that one.
         if result.case.number != SHOWN {
-            moved = moving(&moving_case(result)?)?;
+            moved = CaseReport::new(result).moving()?;
         }
     }
     let seen = pieces.filter_map(|piece| {

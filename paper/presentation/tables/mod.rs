@@ -8,7 +8,7 @@ pub mod unlimited;
 
 use corfem::method::structure::ElementKind;
 use corfem::present::table::Digits;
-pub use corfem::present::tables::{HERTZ, RMS_PERCENT};
+pub use corfem::present::table::{HERTZ, RMS_PERCENT};
 use corfem::torque_box::published::PublishedTable;
 
 const INCHES: Digits = Digits::Fixed(5);

@@ -53,11 +53,8 @@ pub fn fill(
         [] => ("Hz", HERTZ, test_hz),
         _ => ("in", INCHES, &[TEST_GAGE; PANEL_COUNT][..]),
     };
-    let count = stages
-        .iter()
-        .map(|stage| stage.values.len())
-        .max()
-        .unwrap_or(0);
+    let lengths = stages.iter().map(|stage| stage.values.len());
+    let count = lengths.max().unwrap_or(0);
     let labels = (0..count).map(|row| {
         panels
             .get(row)

@@ -44,7 +44,14 @@ fn another_box_is_a_change_of_data_alone() {
     fs::write(&path, table.to_string()).unwrap();
     let frequencies = |more: &[&str]| {
         let document = parsed(&[&["cases", "2", "-f", "json"], more].concat());
-        numbers(&document["cases"][0]["correlation"]["test_frequencies_hz"])
+        let modes = document["cases"][0]["correlation"]["modes"]
+            .as_array()
+            .unwrap()
+            .clone();
+        modes
+            .iter()
+            .map(|own| own["test_hz"].as_f64().unwrap())
+            .collect_vec()
     };
     let other = frequencies(&["--box", path.to_str().unwrap()]);
     assert_alike(other, frequencies(&[]), MATRIX_ROUND_OFF);

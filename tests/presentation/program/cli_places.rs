@@ -150,7 +150,7 @@ fn new_files_are_on_the_disk_before_they_take_a_name() {
 /// The law: no command writes over what it reads, by whatever name.
 #[test]
 fn no_output_takes_the_place_of_an_input() {
-    for name in ["shapes.csv", "factors.csv", "residuals.csv"] {
+    for name in ["shapes.csv", "factors.csv", "modes.csv"] {
         let mut files = building();
         let job = file(&mut files, "job.toml");
         *job = job.replace("\"test.csv\"", &format!("{name:?}"));

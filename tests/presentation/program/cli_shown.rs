@@ -41,7 +41,7 @@ fn characters_that_turn_text_around_are_escaped_in_every_output() {
     }
     // Whoever reads JSON by a program finds the name as it was.
     let document: Value = serde_json::from_str(&outputs[outputs.len() - 1]).unwrap();
-    let name = document["parameters"][0].as_str().unwrap();
+    let name = document["parameters"][0]["parameter"].as_str().unwrap();
     assert_eq!(name, format!("a{all}b"));
 }
 

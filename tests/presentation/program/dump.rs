@@ -1,12 +1,12 @@
-//! What `corfem dump` writes, read back: the matrices have the case's modes, and the iterations are those of (13).
+//! What a dump holds, read back: the matrices have the case's modes, and the iterations are those of (13).
 
 use crate::prelude::*;
-use crate::presentation::program::cli::{corfem, numbers, parsed};
-use corfem::files::matrices::read;
+use crate::presentation::program::cli::{numbers, parsed};
 
 /// A case's document.
 fn dumped(case: &str) -> Value {
-    parsed(&["dump", case])
+    let case = case_of(case.parse().unwrap());
+    serde_json::from_str(&crate::common::dump::dump(&case).unwrap()).unwrap()
 }
 
 fn matrix(value: &Value) -> DMatrix<f64> {
@@ -72,61 +72,19 @@ fn dumped_matrices_have_the_dumped_modes() {
     }
 }
 
-#[test]
-fn a_folder_gets_every_matrix_as_the_document_has_it() {
-    let folder = new_folder();
-    let path = folder.path().join("dump");
-    let place = path.to_str().unwrap();
-    // T, V_G and the document; K_D, M, V, B and fifteen shares of the start and of both passes.
-    const FILES: usize = 3 + 3 * 19;
-    for (more, said) in [
-        (&[][..], format!("{FILES} files in {place}\n")),
-        (&["--quiet"], String::new()),
-    ] {
-        let output = corfem(&[&["dump", "2", "--folder", place], more].concat());
-        assert_eq!((output.status.code(), output.stdout.len()), (Some(0), 0));
-        assert_eq!(String::from_utf8_lossy(&output.stderr), said);
-    }
-    assert_eq!(fs::read_dir(&path).unwrap().count(), FILES);
-    let file = |name: String| fs::read(path.join(name)).unwrap();
-    let dump: Value = serde_json::from_slice(&file("dump.json".to_owned())).unwrap();
-    assert_eq!(dump, dumped("2"));
-    // The last digit is the reader's of JSON; of a symmetric matrix the file has the lower triangle alone.
-    let assert_same = |name: &str, value: &Value| {
-        let name = format!("{name}.mtx");
-        let stored = read(&name, &file(name.clone()), None)
-            .unwrap()
-            .matrix
-            .dense();
-        let expected = matrix(value);
-        assert!(
-            (stored - &expected).amax() < MATRIX_ROUND_OFF * expected.amax(),
-            "{name}"
-        );
-    };
-    assert_same("T", &dump["T"]);
-    assert_same("V_G", &dump["test"]["V_G"]);
-    for (number, analysis) in (1..).zip(entries(&dump["analyses"])) {
-        for name in ["K_D", "M", "V", "B"] {
-            assert_same(&format!("analysis_{number}_{name}"), &analysis[name]);
-        }
-        for (panel, share) in (1..).zip(entries(&analysis["shares"])) {
-            assert_same(&format!("analysis_{number}_share_{panel}"), share);
-        }
-    }
-}
-
 /// Those of the runs with fewer modes and of cases too.
 #[test]
 fn the_keys_of_documents_stay_what_they_are() {
-    for (name, arguments) in [
-        ("dump_keys", &["dump", "2"][..]),
-        ("cases_keys", &["cases", "3", "-q", "-f", "json"]),
+    let dump = ("dump_keys", dumped("2"));
+    let documents = [
+        ("cases_keys", &["cases", "3", "-q", "-f", "json"][..]),
         ("case_4_keys", &["cases", "4", "-q", "-f", "json"]),
         ("fewer_modes_keys", &["fewer-modes", "-f", "json"]),
-    ] {
+    ];
+    let documents = documents.map(|(name, arguments)| (name, parsed(arguments)));
+    for (name, document) in once(dump).chain(documents) {
         let mut found = Vec::new();
-        keys(&parsed(arguments), "", &mut found);
+        keys(&document, "", &mut found);
         assert_golden(name, &found.join("\n"), Numbers::AS_WRITTEN);
     }
 }
