@@ -23,7 +23,7 @@
 //! entry, and by more where its shear panel takes sides that are nearly parallel for parallel.
 
 use corfem::files::deck::number::parse_reals;
-use corfem::files::deck::{BulkData, Task, write};
+use corfem::files::deck::{BulkData, write};
 use corfem::files::{error::FileError, escaped};
 use corfem::method::analysis::State;
 use corfem::method::appendix_a::assemble;
@@ -199,7 +199,7 @@ impl Nastran95 {
         let points = vec![Vector3::zeros(); model.mass().nrows()];
         let bulk = BulkData::from_model(model, factors, &points)?;
         let all = with_single_elements(&bulk);
-        let deck = write(&all, "ANALYSIS", &Task::Matrices)?;
+        let deck = write(&all, "ANALYSIS", 1, [1.0, 2.0])?;
         // KGG, KAA and MAA have no more rows than this.
         let rows = GRID_DOF.saturating_mul(all.grids.len());
         let answer = self.matrices(&deck, rows.saturating_mul(rows).saturating_mul(3))?;
@@ -208,9 +208,12 @@ impl Nastran95 {
         Ok(model)
     }
 
-    /// The matrices that a deck has NASTRAN write with module OUTPUT5 on Fortran unit 15, of no more than `numbers` entries.
+    /// The matrices KGG, KAA and MAA of a deck that NASTRAN writes with module OUTPUT5 on Fortran unit 15 before it looks for modes, of no more
+    /// than `numbers` entries.
     pub fn matrices(&self, deck: &str, numbers: usize) -> Outcome<Matrices> {
-        let answer = self.run(deck)?;
+        let alter =
+            "INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\nCEND\n";
+        let answer = self.run(&deck.replacen("CEND\n", alter, 1))?;
         let unit_15 = answer.unit_15.ok_or_else(|| {
             let last = last_lines(&answer.printed);
             format!("NASTRAN-95: nothing was written on Fortran unit 15; printed last: {last}")

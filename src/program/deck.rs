@@ -2,7 +2,7 @@
 
 use super::output::{OutputArguments, note, reconstruction, write};
 use clap::Args;
-use corfem::files::deck::{self, BulkData, Task};
+use corfem::files::deck::{self, BulkData};
 use corfem::files::error::FileError;
 use corfem::files::read_bytes;
 use corfem::job::{matrix_modes, of_bodies};
@@ -78,14 +78,11 @@ pub fn deck(arguments: &DeckArguments) -> Result<bool, PresentError> {
     let modes = model.modes(&factors)?;
     let frequencies = modes.frequencies_hz();
     let (lowest, highest) = (frequencies[0], frequencies[frequencies.len() - 1]);
-    let task = Task::Modes {
-        count: modes.len(),
-        // A deck is easier to read with round numbers.
-        range_hz: [(RANGE[0] * lowest).floor(), (RANGE[1] * highest).ceil()],
-    };
+    // A deck is easier to read with round numbers.
+    let range_hz = [(RANGE[0] * lowest).floor(), (RANGE[1] * highest).ceil()];
     let bulk = BulkData::from_model(&model, &factors, &dynamic_points(&case.reconstruction)?)?;
     let title = format!("corfem case {}, pass {}", arguments.case, arguments.pass);
-    let text = deck::write(&bulk, &title, &task)?;
+    let text = deck::write(&bulk, &title, modes.len(), range_hz)?;
     write(arguments.output.as_deref(), text.as_bytes())?;
     Ok(true)
 }

@@ -8,7 +8,7 @@ use corfem::files::deck::{Deck, PointMass};
 /// # Errors
 /// Those of [`deck::write`].
 pub fn bulk_text(model: &BulkData) -> Result<String, FileError> {
-    let deck = deck::write(model, "", &deck::Task::Matrices)?;
+    let deck = deck::write(model, "", 1, [1.0, 2.0])?;
     let bulk = deck.split_once("BEGIN BULK\n").unwrap().1;
     Ok(bulk
         .split_inclusive('\n')

@@ -92,7 +92,7 @@ pub use approx::assert_relative_eq;
 pub use corfem::{
     files::{
         deck::{
-            self, BulkData, Reason, Task, Tie, Unread,
+            self, BulkData, Reason, Tie, Unread,
             number::{large_real, nearest_in_field},
             rewrite,
         },

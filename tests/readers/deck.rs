@@ -61,11 +61,7 @@ fn box_deck(number: usize, factors: &[f64]) -> (BulkData, String) {
     let case = case_of(number);
     let points = dynamic_points(&case.reconstruction).unwrap();
     let bulk = BulkData::from_model(&case.model().unwrap(), factors, &points).unwrap();
-    let task = Task::Modes {
-        count: 9,
-        range_hz: [5.0, 3000.0],
-    };
-    let text = deck::write(&bulk, "box", &task).unwrap();
+    let text = deck::write(&bulk, "box", 9, [5.0, 3000.0]).unwrap();
     (bulk, text)
 }
 

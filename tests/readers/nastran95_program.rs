@@ -60,12 +60,8 @@ fn nastran_solves_the_written_deck_for_its_modes() {
         let model = case.model().unwrap();
         let (own, bulk) = modes_and_deck(&case, &model);
         // By NASTRAN-95's own eigensolution with the singular mass.
-        let task = Task::Modes {
-            count: 9,
-            range_hz: [5.0, 3000.0],
-        };
         let printed = nastran
-            .run(&deck::write(&bulk, "box", &task).unwrap())
+            .run(&deck::write(&bulk, "box", 9, [5.0, 3000.0]).unwrap())
             .unwrap()
             .printed;
         assert_near(
@@ -77,7 +73,7 @@ fn nastran_solves_the_written_deck_for_its_modes() {
         // By its matrices: the nine finite roots of (KAA, MAA).
         let matrices = nastran
             .matrices(
-                &deck::write(&bulk, "box", &Task::Matrices).unwrap(),
+                &deck::write(&bulk, "box", 9, [5.0, 3000.0]).unwrap(),
                 1_000_000,
             )
             .unwrap();

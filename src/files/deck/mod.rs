@@ -41,4 +41,4 @@ pub use modes::{modes, moving};
 pub use read::{Deck, Reason, Unread, read};
 pub use rewrite::rewrite;
 #[doc(hidden)]
-pub use write::{Task, write};
+pub use write::write;

@@ -12,21 +12,8 @@ use crate::method::structure::{Grid, Material};
 /// The set of constraints that case control selects, of SPC1 and of MPC.
 const SET: usize = 1;
 
-/// Task that a deck sets NASTRAN.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Task {
-    /// Normal modes by the inverse power method, which allows a singular mass matrix.
-    Modes {
-        /// Number of modes.
-        count: usize,
-        /// Frequencies between which they lie, Hz.
-        range_hz: [f64; 2],
-    },
-    /// No solution: KGG, KAA and MAA are written on Fortran unit 15 and the run ends.
-    Matrices,
-}
-
-/// A whole deck: executive control, case control and bulk data; `title` goes into the output's headings.
+/// A whole deck that sets NASTRAN the task of so many normal modes between two frequencies, Hz, by the inverse power method, which allows a
+/// singular mass matrix: executive control, case control and bulk data; `title` goes into the output's headings.
 ///
 /// `BANDIT=-1` keeps the grids in the order of their numbers, and `DIAG 44` takes the decomposition that gives right
 /// answers (the default one of the 1995 release does not).
@@ -38,24 +25,20 @@ pub enum Task {
 /// # Errors
 /// [`Error::Value`](crate::method::error::Error::Value) and [`Error::Count`](crate::method::error::Error::Count) for numbers that no
 /// card can hold.
-pub fn write(model: &BulkData, title: &str, task: &Task) -> Result<String, FileError> {
-    // Rigid format 3 wants a method even where the run ends before it is used.
-    let (count, [lower, upper], alter, output) = match task {
-        Task::Modes { count, range_hz } => (*count, *range_hz, "", "DISPLACEMENT = ALL\n"),
-        Task::Matrices => {
-            let alter =
-                "INSERT READ,-1 $\nOUTPUT5 KGG,KAA,MAA,,//-1/15/*CORFEM*/1 $\nEXIT $\nENDALTER\n";
-            (1, [1.0, 2.0], alter, "")
-        }
-    };
+pub fn write(
+    model: &BulkData,
+    title: &str,
+    count: usize,
+    [lower, upper]: [f64; 2],
+) -> Result<String, FileError> {
     let ties = match model.ties[..] {
         [] => String::new(),
         _ => format!("MPC = {SET}\n"),
     };
     let text = format!(
         "NASTRAN BANDIT=-1\nID      CORFEM,DECK\nAPP     DISPLACEMENT\nSOL     3,0\nTIME    5\nDIAG    44\n\
-         {alter}CEND\n\
-         TITLE = {}\nSPC = {SET}\n{ties}METHOD = {SET}\n{output}BEGIN BULK\n",
+         CEND\n\
+         TITLE = {}\nSPC = {SET}\n{ties}METHOD = {SET}\nDISPLACEMENT = ALL\nBEGIN BULK\n",
         title.to_ascii_uppercase()
     );
     let mut cards = Cards {
