@@ -20,6 +20,34 @@ impl Axes {
         rotation: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
     };
 
+    /// The system of an origin, of a point on its x or z axis, the place of which in columns is 0 or 2, and of a third in its xz plane, all in
+    /// coordinates of this one; none where the three lie on a line but for this part of their distance.
+    pub fn through(
+        &self,
+        points: [Vector3<f64>; 3],
+        kind: usize,
+        axis: usize,
+        round_off: f64,
+    ) -> Option<Self> {
+        let [origin, along, across] = points.map(|point| self.place(point));
+        let (along, across) = (along - origin, across - origin);
+        let first = along.try_normalize(0.0)?;
+        // The y axis, or, where x is given, against it.
+        let normal = first
+            .cross(&across)
+            .try_normalize(round_off * across.norm())?;
+        let last = normal.cross(&first);
+        let columns = match axis {
+            0 => [first, -normal, last],
+            _ => [last, normal, first],
+        };
+        Some(Self {
+            kind,
+            origin,
+            rotation: Matrix3::from_columns(&columns),
+        })
+    }
+
     /// The global place of coordinates in the system: of a cylindrical one radius, angle in degrees and height.
     pub fn place(&self, at: Vector3<f64>) -> Vector3<f64> {
         let (sine, cosine) = at.y.to_radians().sin_cos();

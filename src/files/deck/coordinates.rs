@@ -114,23 +114,17 @@ fn system(
         return Err(card.error(2, "this coordinate system is defined by itself"));
     }
     let base = system(systems, card, 3, depth + 1)?;
-    let at = |fields| Ok::<_, FileError>(base.place(point(card, fields)?));
-    let (origin, along, across) = (at([4, 5, 6])?, at([7, 8, 9])?, at([12, 13, 14])?);
-    let degenerate = || {
+    let points = [
+        point(card, [4, 5, 6])?,
+        point(card, [7, 8, 9])?,
+        point(card, [12, 13, 14])?,
+    ];
+    let kind = usize::from(card.name == "CORD2C");
+    base.through(points, kind, 2, ROUND_OFF).ok_or_else(|| {
         card.error(
             2,
             "the three points of this coordinate system lie on a line",
         )
-    };
-    let z = (along - origin).try_normalize(0.0).ok_or_else(degenerate)?;
-    let y = z
-        .cross(&(across - origin))
-        .try_normalize(ROUND_OFF * (across - origin).norm())
-        .ok_or_else(degenerate)?;
-    Ok(Axes {
-        kind: usize::from(card.name == "CORD2C"),
-        origin,
-        rotation: Matrix3::from_columns(&[y.cross(&z), y, z]),
     })
 }
 

@@ -30,26 +30,12 @@ pub fn by_points(block: &mut Block, systems: &mut Systems) -> Result<(), FileErr
         block.line("the name of a coordinate system")?;
         let mut points = block.reals("an origin and a point on the x axis", &VALUES)?;
         points.extend(block.reals("a point in the xz plane", &VALUES[..3])?);
-        let point = |at: usize| {
-            base.origin + base.rotation * Vector3::from_column_slice(&points[at..at + 3])
-        };
-        let (origin, along) = (point(0), |at: usize| point(at) - point(0));
-        let x = along(3)
-            .try_normalize(0.0)
-            .ok_or_else(|| block.wrong("the point on the x axis is the origin"))?;
-        let z = along(6) - x * x.dot(&along(6));
-        let z = z
-            .try_normalize(ROTATION * along(6).norm())
-            .ok_or_else(|| block.wrong("the point in the xz plane is on the x axis"))?;
-        let rotation = Matrix3::from_columns(&[x, z.cross(&x), z]);
-        systems.insert(
-            numbers[0],
-            Axes {
-                kind: numbers[1],
-                origin,
-                rotation,
-            },
-        );
+        let points = [0, 3, 6].map(|at| Vector3::from_column_slice(&points[at..at + 3]));
+        let own = base.through(points, numbers[1], 0, ROTATION);
+        let own = own.ok_or_else(|| {
+            block.wrong("the three points of this coordinate system lie on a line")
+        })?;
+        systems.insert(numbers[0], own);
     }
     Ok(())
 }
