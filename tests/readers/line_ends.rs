@@ -45,7 +45,7 @@ macro_rules! files {
 /// Files of this repository, most of them by other programs.
 const FILES: [(&str, &[u8], Reader); 18] = files! {
     of_deck: "golden/formats/original.bdf" "golden/formats/rewritten.bdf" "tests/jobs/box/model.bdf" "golden/nastran95/decks/box_case_1_gvt.inp";
-    of_matrix: "golden/formats/symmetric.mtx" "golden/formats/general_array.mtx" "golden/formats/skew.mtx" "golden/formats/small.dmig"
+    of_matrix: "golden/formats/symmetric.mtx" "golden/formats/general_array.mtx" "golden/formats/symmetric_array.mtx" "golden/formats/small.dmig"
         "golden/formats/large.dmig" "golden/formats/dense.op4" "golden/formats/sparse.op4" "golden/formats/bigmat.op4";
     of_test: "golden/formats/universal_real.unv" "golden/formats/universal_complex.unv" "golden/formats/universal_axes.unv"
         "golden/formats/shapes.unv" "tests/jobs/building/test.csv" "tests/jobs/wing/test.unv";

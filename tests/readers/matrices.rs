@@ -65,7 +65,7 @@ fn matrices_of_the_owners_programs_read_to_the_last_digit() {
             .insert((row.clone(), column.clone()), value);
     }
     let sizes = table("sizes.csv");
-    assert_eq!(sizes.len(), 7 + 3 * 2 + 3 * 3);
+    assert_eq!(sizes.len(), 5 + 3 * 2 + 3 * 3);
     for line in sizes {
         let [file, name, rows, columns] = &line[..] else {
             panic!("{line:?}")
@@ -216,8 +216,8 @@ properties! {
 
     /// Every text that ends early is refused, and the error names a line of what is left or the one after it.
     #[test]
-    fn a_file_that_ends_early_is_refused(part in 0.02..0.98_f64, which in 0..9_usize) {
-        let files = ["general.mtx", "general_array.mtx", "symmetric.mtx", "symmetric_array.mtx", "skew.mtx", "skew_array.mtx",
+    fn a_file_that_ends_early_is_refused(part in 0.02..0.98_f64, which in 0..7_usize) {
+        let files = ["general.mtx", "general_array.mtx", "symmetric.mtx", "symmetric_array.mtx",
             "dense.op4", "sparse.op4", "bigmat.op4"];
         let file = files[which];
         let text = fs::read_to_string(golden(file))?;

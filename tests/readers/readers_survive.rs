@@ -88,7 +88,7 @@ const READERS: &[Reader] = &[
         rewrite("deck", text, &factors, &BTreeMap::from([(91, 2.0)])).is_ok()
     }),
     ("Matrix Market", include_bytes!("../../golden/formats/symmetric.mtx"), |text| read_matrix("m", text, None).is_ok()),
-    ("array of Matrix Market", include_bytes!("../../golden/formats/skew_array.mtx"), |text| {
+    ("array of Matrix Market", include_bytes!("../../golden/formats/symmetric_array.mtx"), |text| {
         read_matrix("m", text, None).is_ok()
     }),
     ("DMIG", include_bytes!("../../golden/formats/small.dmig"), |text| read_matrix("m", text, Some("KAAX")).is_ok()),

@@ -59,13 +59,9 @@ fn matrix<'a>(
     let (mut entries, mut places, mut digits) = (Vec::new(), HashSet::new(), Digits::default());
     for card in cards {
         let column = label(card, 3)?;
-        let last = card.filled().pop().unwrap_or(0);
-        let starts = (10..).step_by(10).flat_map(|line| [line + 2, line + 6]);
-        for start in [6]
-            .into_iter()
-            .chain(starts)
-            .take_while(|start| *start <= last)
-        {
+        // Two entries to a line, in fields 2 and 6, but one to the first.
+        for entry in 1..card.fields.len() / 4 {
+            let start = 10 * (entry / 2) + [2, 6][entry % 2];
             if (start..start + 4).all(|field| card.text(field).is_empty()) {
                 continue;
             }

@@ -10,8 +10,7 @@ use std::fmt::Write;
 struct Heading {
     is_array: bool,
     is_complex: bool,
-    /// The factor on the triangle that the file has gives the other one.
-    mirror: Option<f64>,
+    is_symmetric: bool,
     rows: usize,
     columns: usize,
     /// Number of entries of the coordinate format.
@@ -28,13 +27,11 @@ pub fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
     let (first, banner) = lines.next().unwrap_or((1, ""));
     let mut lines = lines.filter(|(_, line)| !line.starts_with('%'));
     let own = heading(file, (first, banner), lines.next(), end)?;
-    // The first row of a column that the file holds.
-    let first_row = |column: usize| {
-        own.mirror
-            .map_or(0, |factor| column + usize::from(factor < 0.0))
-    };
-    let mut places = (0..own.columns)
-        .flat_map(|column| (first_row(column)..own.rows).map(move |row| (row, column)));
+    // The array of a symmetric one holds the lower triangle.
+    let mut places = (0..own.columns).flat_map(|column| {
+        let first = if own.is_symmetric { column } else { 0 };
+        (first..own.rows).map(move |row| (row, column))
+    });
     let (mut entries, mut read, mut digits) = (Vec::new(), 0, Digits::default());
     for (number, line) in lines {
         let wrong = |what: &str| FileError::line(file, number, is_not(line, what));
@@ -49,11 +46,7 @@ pub fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
                 let place = place(row, own.rows)
                     .zip(place(column, own.columns))
                     .map(|(row, column): (usize, usize)| (row - 1, column - 1));
-                let is_stored =
-                    |&(row, column): &_| own.mirror == Some(1.0) || row >= first_row(column);
-                Some(place.filter(is_stored).ok_or_else(|| {
-                    wrong("an entry within the part of the matrix that is stored")
-                })?)
+                Some(place.ok_or_else(|| wrong("an entry within the matrix"))?)
             }
             [_, _, _] if !own.is_array => None,
             _ if own.is_array => return Err(wrong("a value")),
@@ -72,16 +65,13 @@ pub fn read(file: &str, text: &str) -> Result<SparseMatrix, FileError> {
             value.ok_or_else(|| FileError::line(file, number, is_not(word, "a real number")))?;
         digits.add(word);
         entries.push((row, column, value));
-        if own.mirror == Some(-1.0) {
-            entries.push((column, row, -value));
-        }
         read += 1;
     }
     if places.next().is_some() && own.is_array || !own.is_array && read < own.count {
         let reason = format!("the file ends after entry {read}; the line of sizes promises more");
         return Err(FileError::line(file, end, reason));
     }
-    if own.mirror == Some(1.0) {
+    if own.is_symmetric {
         entries = mirrored(entries).map_err(|both| {
             let [row, column] = both.map(|place| place + 1);
             let reason = format!(
@@ -121,16 +111,12 @@ fn heading(
             "the banner of a matrix: array or coordinate, real, integer or complex, and its symmetry",
         ));
     };
-    let mirror = match symmetry {
-        "general" => None,
-        "symmetric" | "hermitian" => Some(1.0),
-        "skew-symmetric" => Some(-1.0),
+    let is_symmetric = match symmetry {
+        "general" => false,
+        "symmetric" | "hermitian" => true,
         _ => {
-            return Err(wrong(
-                first,
-                symmetry,
-                "general, symmetric, hermitian or skew-symmetric",
-            ));
+            let what = "general, symmetric or hermitian, as a stiffness or a mass is";
+            return Err(wrong(first, symmetry, what));
         }
     };
     let (at, sizes) = sizes
@@ -152,7 +138,7 @@ fn heading(
             "a line of sizes: rows, columns and, in the coordinate format, the number of entries",
         ));
     }
-    if mirror.is_some() && rows != columns {
+    if is_symmetric && rows != columns {
         return Err(wrong(
             at,
             sizes,
@@ -163,7 +149,7 @@ fn heading(
     Ok(Heading {
         is_array,
         is_complex,
-        mirror,
+        is_symmetric,
         rows,
         columns,
         count,

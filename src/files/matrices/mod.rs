@@ -43,11 +43,10 @@ pub struct LabeledMatrix {
 
 /// Reads a real matrix from a file, `name` in messages: in Matrix Market's format if it begins with `%%MatrixMarket`, as
 /// bulk data if a line begins with `DMIG`, by Abaqus's labels if its first line is five numbers with commas, and otherwise in that of
-/// OUTPUT4. `wanted` is the matrix's name in capitals or not, which may be left out where the file has one alone; of several of one name
-/// `NAME@2` is the second. Matrix Market and Abaqus have no names. Matrices of other names may be complex.
+/// OUTPUT4. `wanted` is the matrix's name in capitals or not, which may be left out where the file has one alone. Matrix Market and Abaqus have no names. Matrices of other names may be complex.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] and [`FileError::DeckField`] name the line of what is damaged, complex or cut off, line 1 without such a
+/// [`FileError::DeckLine`] names the line of what is damaged, complex or cut off, line 1 without such a
 /// matrix; the errors of [`SparseMatrix::new`].
 pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMatrix, FileError> {
     let text = readable(name, bytes)?;
@@ -69,22 +68,12 @@ pub fn read(name: &str, bytes: &[u8], wanted: Option<&str>) -> Result<LabeledMat
         return Err(FileError::refused(name, reason));
     }
     let read = if is_dmig { dmig::read } else { output4::read };
-    let numbered = wanted
-        .and_then(|wanted| wanted.rsplit_once('@'))
-        .and_then(|(name, at)| Some((name, at.parse::<usize>().ok()?)));
-    let (names, found) = read(name, &text, numbered.map(|own| own.0).or(wanted))?;
-    let (count, place) = (found.len(), numbered.map_or(1, |own| own.1));
-    let place = place
-        .checked_sub(1)
-        .filter(|_| count == 1 || numbered.is_some());
-    let one = place.and_then(|place| found.into_iter().nth(place));
-    one.ok_or_else(|| {
-        let asked = match (wanted, count) {
-            (Some(name), 2..) if numbered.is_none() => {
-                format!("there are {count} matrices {name}; name one {name}@1 or {name}@{count}")
-            }
-            (Some(name), _) => format!("there is not one matrix {name}"),
-            (None, _) => "name one matrix".to_owned(),
+    let (names, mut found) = read(name, &text, wanted)?;
+    let count = found.len();
+    found.pop().filter(|_| count == 1).ok_or_else(|| {
+        let asked = match wanted {
+            Some(name) => format!("there is not one matrix {name}"),
+            None => "name one matrix".to_owned(),
         };
         let names = match &names[..] {
             [] => "none".to_owned(),

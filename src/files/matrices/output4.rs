@@ -1,6 +1,6 @@
 //! The text that NASTRAN's module OUTPUT4 writes, dense or sparse.
 
-use super::{Digits, FoundMatrices, LabeledMatrix, is_wanted};
+use super::{Digits, FoundMatrices, LabeledMatrix, is_wanted, mirrored};
 use crate::files::deck::number::parse_reals;
 use crate::files::error::{FileError, ensure};
 use crate::sparse::SparseMatrix;
@@ -31,7 +31,7 @@ struct Lines<'a> {
 /// with its column, its first row and its words. Where the first row is zero, strings follow: each begins with its words and
 /// first row as one number, or as two in a matrix of more than 65535 rows or of a negative number of them.
 ///
-/// NASTRAN gives both triangles of a symmetric matrix (form 6). Where all entries stand in one, it is mirrored.
+/// NASTRAN gives both triangles of a symmetric matrix (form 6). Where no entry has its opposite, they are mirrored.
 pub fn read(file: &str, text: &str, wanted: Option<&str>) -> Result<FoundMatrices, FileError> {
     let mut lines = Lines {
         file,
@@ -135,13 +135,9 @@ impl Lines<'_> {
             self.column([rows, column, first, words], width, is_large)?;
         }
         let mut entries = std::mem::take(&mut self.entries);
-        let others: Vec<_> = entries
-            .iter()
-            .filter(|own| form == 6 && own.0 != own.1)
-            .map(|own| (own.1, own.0, own.2))
-            .collect();
-        if others.iter().all(|own| own.0 < own.1) || others.iter().all(|own| own.0 > own.1) {
-            entries.extend(others);
+        if form == 6 {
+            // Both triangles may differ by round-off.
+            entries = mirrored(entries.clone()).unwrap_or(entries);
         }
         let digits = std::mem::take(&mut self.digits);
         Ok(
