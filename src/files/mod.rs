@@ -9,7 +9,7 @@ pub mod matrices;
 pub mod test_data;
 pub(crate) mod text;
 
-use std::io::{Error, ErrorKind, Read};
+use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 /// Size in bytes of the longest file that is read, 2 GiB: enough for a matrix of sixty million entries. The text and the data read
@@ -32,18 +32,11 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
         };
         return Err(Error::new(ErrorKind::InvalidInput, reason));
     }
-    let (mut bytes, mut length) = (Vec::new(), found.len());
-    if length <= MOST_BYTES {
-        // The file may have grown meanwhile.
-        length = std::fs::File::open(path)?
-            .take(MOST_BYTES + 1)
-            .read_to_end(&mut bytes)? as u64;
-    }
-    if length > MOST_BYTES {
+    if found.len() > MOST_BYTES {
         let reason = format!("it is longer than {MOST_BYTES} bytes, the most that corfem reads");
         return Err(Error::new(ErrorKind::FileTooLarge, reason));
     }
-    Ok(bytes)
+    std::fs::read(path)
 }
 
 /// A text with control characters other than line ends and tabs escaped, because a terminal would obey them.
@@ -75,13 +68,9 @@ pub(crate) fn inert(text: &str) -> String {
 }
 
 fn escape(text: &str, is_shown: impl Fn(char) -> bool) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        if is_shown(c) {
-            escaped.extend(c.escape_default())
-        } else {
-            escaped.push(c)
-        }
-    }
-    escaped
+    let own = |c: char| match is_shown(c) {
+        true => c.escape_default().to_string(),
+        false => c.into(),
+    };
+    text.chars().map(own).collect()
 }

@@ -12,9 +12,10 @@ fn errors_name_the_offender() {
         ("largest component of mode 1 (from zero)", |data| {
             data.shapes.column_mut(1).fill(0.0)
         }),
-        ("test: sensor z 12 is given twice", |data| {
-            data.sensors[2].direction = 2
-        }),
+        (
+            "test, direction z: sensor at grid 12 is given twice",
+            |data| data.sensors[2].direction = 2,
+        ),
         ("shape deviation of test mode 1", |data| {
             data.shape_deviation = Some(vec![0.1, 0.0])
         }),

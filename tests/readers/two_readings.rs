@@ -88,8 +88,8 @@ fn cylindrical_axes_of_a_test_turn_with_the_angle() {
 }
 
 #[test]
-fn a_table_names_its_separator_its_encoding_and_its_modes() {
-    let text = "sep=;\nname;direction;mode 7;mode 8\nfrequency_hz;;1,5;2,5\na;z;1;2\n";
+fn a_table_says_its_encoding_and_its_modes() {
+    let text = "name;direction;mode 7;mode 8\nfrequency_hz;;1,5;2,5\na;z;1;2\n";
     let data = table(text);
     assert_eq!(
         (data.frequencies_hz.as_slice(), data.numbers.as_slice()),

@@ -11,9 +11,7 @@
 //!
 //! - Commas, semicolons or tabs separate cells, as in the first row that is no comment; with the latter two a decimal comma is
 //!   understood. Separators may stand within quotation marks, which are doubled there.
-//! - A row that begins with `#` is a comment, above the header also one that begins with `"#`; empty rows do not count. Where all rows below
-//!   the header begin so, they are sensors with such names; where some do that could be sensors, the file is refused.
-//! - A first row `sep=;` names the separator.
+//! - Above the header a row that begins with `#` or `"#` is a comment, below it one that begins with `#` is refused; empty rows do not count.
 //! - One row, the header, has the titles of the columns, in any order and in capitals or not. `direction` must be there (x, y, z; rx,
 //!   ry, rz for rotations), `name` or `grid` or both, and a column for every mode, whose title begins with `mode` or with its number, as
 //!   `1st bending` does. `sign` says which way the sensor points along its axis: `+`, `-`, or empty for `+`. `x`, `y`, `z` are its place,
@@ -122,7 +120,7 @@ impl TestRow<'_> {
             };
             ensure(is_taken, || {
                 self.is_not(cell, "a title: name, grid, direction, sign, x, y and z once each, mode 1 or 1 and so on, or a title deviation with the \
-                            number of a mode, once each")
+                            number of a mode, once each; leave a row sep=; out")
             })?;
         }
         let mut numbered = modes.iter().enumerate();
@@ -309,20 +307,12 @@ fn rows<'a>(
     missing: &impl Fn(&str) -> FileError,
 ) -> Result<Rows<'a>, FileError> {
     let is_comment = |line: &str| line.starts_with('#') || line.starts_with("\"#");
-    let named = |line: &str| {
-        let mut own = line.trim().trim_matches('"').strip_prefix("sep=")?.chars();
-        own.next().filter(|_| own.next().is_none())
-    };
     let lines = (1..)
         .zip(text.lines())
-        .filter(|own| !own.1.trim().is_empty() && named(own.1).is_none());
+        .filter(|own| !own.1.trim().is_empty());
     let first = lines.clone().find(|(_, line)| !is_comment(line));
-    let separator = text
-        .lines()
-        .find_map(named)
-        .unwrap_or(separator(first.map_or("", |(_, line)| line)));
-    let (mut by_mode, mut header, mut sensors, mut hashed) =
-        ([const { None }; 4], None::<Header>, Vec::new(), Vec::new());
+    let separator = separator(first.map_or("", |(_, line)| line));
+    let (mut by_mode, mut header, mut sensors) = ([const { None }; 4], None::<Header>, Vec::new());
     for (number, line) in lines {
         let row = TestRow {
             file,
@@ -330,17 +320,12 @@ fn rows<'a>(
             cells: cells(line, separator),
             separator,
         };
-        if line.starts_with('#') {
-            // Below the header a row may be a sensor whose name begins so.
-            let is_sensor = header.as_ref().is_some_and(|header| {
-                row.check_columns(header, true).is_ok() && row.sensor(&header.titles).is_ok()
-            });
-            hashed.extend(Some(row).filter(|_| is_sensor && !line.starts_with("##")));
-            continue;
-        }
         if header.is_none() && is_comment(line) || row.cells.iter().all(String::is_empty) {
             continue;
         }
+        ensure(!line.starts_with('#'), || {
+            row.wrong(format!("\"{}\" may be a comment or a sensor; put the name of a sensor in quotation marks, and comments above the header", row.cells[0]))
+        })?;
         ensure(line.matches('"').count() % 2 == 0, || {
             row.wrong(format!("a quotation mark is not closed: {line}"))
         })?;
@@ -362,13 +347,6 @@ fn rows<'a>(
         }
     }
     let header = header.ok_or_else(|| missing("a header"))?;
-    if let Some(row) = hashed.first().filter(|_| !sensors.is_empty()) {
-        return Err(row.wrong(format!(
-            "\"{}\" may be a comment or a sensor; put the name of a sensor in quotation marks, and begin a comment with ##",
-            row.cells[0]
-        )));
-    }
-    sensors.extend(hashed);
     by_mode
         .iter()
         .flatten()

@@ -24,16 +24,6 @@ use std::collections::{BTreeMap, HashSet};
 #[doc(hidden)]
 pub const DIRECTIONS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// Names of sensors of these directions, in errors.
-const SENSORS: [&str; 6] = [
-    "sensor x",
-    "sensor y",
-    "sensor z",
-    "sensor rx",
-    "sensor ry",
-    "sensor rz",
-];
-
 /// Forms of a direction, in errors.
 pub(crate) const DIRECTION: &str = "a direction x, y, z, rx, ry or rz, 1 to 6, or UX to UZ and RX to RZ or ROTX to ROTZ, with a sign or without";
 
@@ -127,14 +117,11 @@ impl TestData {
         at_least_one("test modes", vibrations.len())?;
         let mut seen = HashSet::new();
         for sensor in &self.sensors {
-            let what = SENSORS[sensor.direction];
             if let Some(label) = sensor.grid {
-                let owner = "test".into();
-                ensure(seen.insert((label, what)), || Error::Duplicate {
-                    owner,
-                    what,
-                    label,
-                })?;
+                let owner = format!("test, direction {}", DIRECTIONS[sensor.direction]);
+                let what = "sensor at grid";
+                let twice = Error::Duplicate { owner, what, label };
+                ensure(seen.insert((label, sensor.direction)), || twice)?;
             }
         }
         for (what, list) in [
