@@ -21,53 +21,9 @@ pub enum FileError {
         line: usize,
         reason: String,
     },
-    /// A field of a bulk data card that cannot be read, and the reason. Fields are numbered 2 to 9 on the card's first line, 12 to
-    /// 19 on its first continuation, and so on.
-    #[error("{file}, line {line}: card {card}, field {field}: {reason}")]
-    DeckField {
-        file: String,
-        line: usize,
-        card: String,
-        field: usize,
-        reason: String,
-    },
     /// Cards that are not read, some of which may be part of the model and are not understood.
     #[error("{}", of_cards(.file, .cards))]
     DeckCards { file: String, cards: Vec<Unread> },
-    /// Elements so unlike in stiffness that double precision loses the softer one: the largest entry of each one's stiffness
-    /// matrix, lbf/in, with its number.
-    #[error(
-        "element {} ({:.3e} lbf/in) is more than {most:.0e} times as stiff as element {} ({:.3e} lbf/in): double precision \
-         loses the softer one",
-        .stiffest.1, .stiffest.0, .softest.1, .softest.0
-    )]
-    StiffnessRange {
-        most: f64,
-        softest: (f64, usize),
-        stiffest: (f64, usize),
-    },
-    /// Modes whose frequencies are too far above the lowest for double precision; the smallest and the largest mass, lbf·s²/in,
-    /// with its grid and direction.
-    #[error(
-        "modes: found only {found} of {expected}, one for each mass that moves independently; frequencies some three million \
-         times the lowest are lost, and the masses range from {:.3e} at {} to {:.3e} at {}",
-        .lightest.0, .lightest.1, .heaviest.0, .heaviest.1
-    )]
-    LostModes {
-        expected: usize,
-        found: usize,
-        lightest: (f64, String),
-        heaviest: (f64, String),
-    },
-    /// An element at a degree of freedom that an MPC equation makes dependent.
-    #[error(
-        "element {element}: an MPC equation ties its grid {grid} along {direction}; an element's grids must move freely"
-    )]
-    TiedElement {
-        element: usize,
-        grid: usize,
-        direction: char,
-    },
     /// A job, a name in it or another request that is refused, and the reason.
     #[error("{of}: {reason}")]
     Refused { of: String, reason: String },

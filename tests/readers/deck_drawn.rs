@@ -10,7 +10,7 @@ const CARDS: [&str; 27] = [
     "PSHEAR", "CQDMEM", "PQDMEM", "CTRMEM", "PTRMEM", "FORCE",
 ];
 /// Forms that some deck must have, beside every card in small, large and free field.
-const FORMS: [&str; 30] = [
+const FORMS: [&str; 24] = [
     "a tag that begins with +",
     "a tag that begins with *",
     "a tag that begins with C",
@@ -19,8 +19,6 @@ const FORMS: [&str; 30] = [
     "a continuation by plus alone",
     "a continuation by blanks",
     "a continuation of another width",
-    "ten free fields and more, with a sign",
-    "ten free fields and more, without",
     "tabs between small fields",
     "tabs between large fields",
     "fields at the right",
@@ -33,10 +31,6 @@ const FORMS: [&str; 30] = [
     "a free number of more than 16 characters",
     "a blank PID",
     "E alone",
-    "two to a card CROD",
-    "two to a card PSHEAR",
-    "two to a card PQDMEM",
-    "two to a card PTRMEM",
     "a parameter in case control",
     "supports by GRDSET",
     "a grid from one to another",
@@ -99,11 +93,6 @@ impl Deck {
     fn card(&mut self, name: &str, fields: &[String]) {
         let filled = fields.iter().rposition(|field| !field.is_empty());
         let fields = &fields[..filled.map_or(1, |last| last + 1)];
-        if fields.len() > 9 && self.chance(4) {
-            let line = self.many(name, fields);
-            self.cards.push(line);
-            return;
-        }
         let rows = fields.chunks(8).collect_vec();
         // Every row is one small line, or two large ones of which the last may be missing.
         let mut parts: Vec<(&[String], bool)> = Vec::new();
@@ -159,21 +148,6 @@ impl Deck {
             begin = next_begin;
         }
         self.cards.push(lines.join("\n"));
-    }
-
-    /// A line of more than ten free fields, which goes on as the next would.
-    fn many(&mut self, name: &str, fields: &[String]) -> String {
-        self.seen.insert(format!("{name} free"));
-        let needs_sign = fields[8].is_empty();
-        let separator = if needs_sign || self.chance(2) {
-            self.see("ten free fields and more, with a sign");
-            ",+,"
-        } else {
-            self.see("ten free fields and more, without");
-            ","
-        };
-        let rows = fields.chunks(8).map(|row| row.join(",")).collect_vec();
-        format!("{name},{}", rows.join(separator))
     }
 
     /// One line in a form of its own.
@@ -253,28 +227,6 @@ impl Deck {
             line += "$ a comment, with commas\n\n$ and another";
         }
         line
-    }
-
-    /// Cards of two entries each, where two are left and the draws say so, else of one.
-    fn entries(&mut self, name: &str, entries: &[Vec<String>]) {
-        let mut rest = entries;
-        while let [first, more @ ..] = rest {
-            let is_double = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"].contains(&name);
-            match more {
-                [second, last @ ..] if is_double && self.chance(2) => {
-                    self.see(&format!("two to a card {name}"));
-                    let mut both = first.clone();
-                    both.resize(4, String::new());
-                    both.extend(second.iter().cloned());
-                    self.card(name, &both);
-                    rest = last;
-                }
-                _ => {
-                    self.card(name, first);
-                    rest = more;
-                }
-            }
-        }
     }
 }
 
@@ -571,7 +523,9 @@ fn write_elements(deck: &mut Deck, model: &BulkData) {
             .push(vec![label, material, size]);
     }
     for (name, entries) in &of_cards {
-        deck.entries(name, entries);
+        for entry in entries {
+            deck.card(name, entry);
+        }
     }
     for (row, (material, is_axial)) in (1..).zip(materials) {
         let Material {

@@ -23,7 +23,7 @@ fn real(value: f64) -> String {
 }
 
 properties! {
-    /// However unlike the parts, there are both modes and they are right, or an error says which parts are too unlike.
+    /// However unlike the parts, the lowest mode is right and there are both, or one is counted as lost, or an error says which are too unlike.
     #[test]
     fn no_mode_is_lost_in_silence(
         stiff in -10.0..20.0_f64, unlike in -20.0..20.0_f64, heavy in -3.0..3.0_f64, light in -20.0..20.0_f64,
@@ -32,23 +32,22 @@ properties! {
         let masses = [heavy, heavy + light].map(|power| nearest_in_field(10.0_f64.powf(power)));
         match modes(&chain(moduli, masses)) {
             Ok(found) => {
-                prop_assert_eq!(found.modes.len(), 2);
                 // The larger root in closed form, and the smaller by the product of both, k1 k2 / (m1 m2).
                 let [k1, k2] = moduli.map(|modulus| modulus / 10.0);
                 let half = 0.5 * ((k1 + k2) / masses[0] + k2 / masses[1]);
                 let product = k1 / masses[0] * (k2 / masses[1]);
                 let larger = half + (half * half - product).max(0.0).sqrt();
+                // A frequency some three million times the other, with a root of its square, may be lost and is counted.
+                let is_lost = found.modes.len() == 1 && found.counted == Some(2) && larger * larger / product > 1e12;
+                prop_assert!(found.modes.len() == 2 || is_lost, "{:?} {}", found.counted, larger * larger / product);
                 let ratio = found.modes.omega_squared()[0] / (product / larger);
                 prop_assert!((ratio - 1.0).abs() < UNLIKE_STIFFNESS, "{}", ratio);
             }
-            Err(FileError::StiffnessRange { softest, stiffest, .. }) => {
-                prop_assert!(stiffest.0 > 1e10 * softest.0);
+            Err(FileError::Refused { of, reason }) => {
+                prop_assert!(unlike.abs() > 9.9);
                 let (soft, stiff) = if unlike > 0.0 { (1, 2) } else { (2, 1) };
-                prop_assert_eq!((softest.1, stiffest.1), (soft, stiff));
-            }
-            Err(FileError::LostModes { expected: 2, found: 1, lightest, heaviest }) => {
-                prop_assert!(heaviest.0 > lightest.0);
-                prop_assert_eq!(lightest.1, if light > 0.0 { "grid 2 x" } else { "grid 3 x" });
+                prop_assert!(of.starts_with(&format!("element {stiff} (")), "{}", of);
+                prop_assert!(reason.contains(&format!("as element {soft} (")), "{}", reason);
             }
             Err(error) => prop_assert!(false, "{}", error),
         }

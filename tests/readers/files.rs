@@ -127,6 +127,7 @@ fn of_modes(text: &str, _: &[String]) -> Result<Value, String> {
         "shapes": shapes.column_iter().map(|shape| shape.iter().copied().collect_vec()).collect_vec(),
         "dof": found.dof.iter().map(|dof| (dof.grid, DIRECTIONS[dof.direction])).collect_vec(),
         "rigid_bodies": found.rigid_body,
+        "counted": found.counted,
     }))
 }
 

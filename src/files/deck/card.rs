@@ -26,7 +26,7 @@ impl Field {
 }
 
 /// A card as it was read, its continuations joined to it. Where a function refuses what a field says, its error is a
-/// [`FileError::DeckField`] about that field.
+/// [`FileError::DeckLine`] about that field.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Card {
     pub file: Arc<str>,
@@ -36,9 +36,11 @@ pub struct Card {
     pub name: String,
     /// Eight for every line of the small format or two lines of the large.
     pub fields: Vec<Field>,
+    /// A line that is none of a card, and why.
+    pub fault: Option<(usize, String)>,
 }
 
-/// The value read from a card, and the field where its entry begins: 2, or 6 for the second of two entries on a card.
+/// The value read from a card, and the field where its entry begins: 2, or 4, 6 and 8 for further masses of PMASS.
 #[derive(Debug)]
 pub struct Kept<T> {
     pub value: T,
@@ -50,6 +52,14 @@ pub struct Kept<T> {
 pub type Numbered<T> = BTreeMap<usize, Kept<T>>;
 
 impl Card {
+    /// The card, unless something is wrong with one of its lines.
+    pub fn sound(self) -> Result<Self, FileError> {
+        match self.fault {
+            Some((line, reason)) => Err(FileError::line(&self.file, line, reason)),
+            None => Ok(self),
+        }
+    }
+
     /// A field by its NASTRAN number: 2 to 9 on the first line, 12 to 19 on the first continuation and so on.
     fn field(&self, number: usize) -> Option<&Field> {
         self.fields.get(place(number))
@@ -80,15 +90,12 @@ impl Card {
             .collect()
     }
 
-    /// An error about a field.
+    /// An error about a field: 2 to 9 on the card's first line, 12 to 19 on its first continuation, and so on.
     pub fn error(&self, field: usize, reason: impl Into<String>) -> FileError {
-        FileError::DeckField {
-            file: self.file.to_string(),
-            line: self.field(field).map_or(self.line, |field| field.line),
-            card: self.name.clone(),
-            field,
-            reason: reason.into(),
-        }
+        let line = self.field(field).map_or(self.line, |field| field.line);
+        let reason = reason.into();
+        let reason = format!("card {}, field {field}: {reason}", self.name);
+        FileError::line(&self.file, line, reason)
     }
 
     /// An error about a field whose text is not what belongs there.

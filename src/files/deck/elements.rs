@@ -16,8 +16,8 @@ pub const ELEMENT_CARDS: [(&str, &str, ElementKind); 4] = [
     ("CQDMEM", "PQDMEM", ElementKind::Membrane),
     ("CTRMEM", "PTRMEM", ElementKind::Triangle),
 ];
-/// Cards that may hold two entries, the second from field 6 on.
-const TWO_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
+/// Cards that in NASTRAN-95 may hold a second entry from field 6 on.
+const ONE_TO_A_CARD: [&str; 4] = ["CROD", "PSHEAR", "PQDMEM", "PTRMEM"];
 
 /// The property and the material that every element refers to, by the elements' numbers.
 pub type Members = BTreeMap<usize, Membership>;
@@ -59,7 +59,7 @@ pub struct Membership {
 impl<T> Kept<Option<T>> {
     /// The field with the number of an element's property: without one it is the element's own.
     pub fn property_field(&self) -> usize {
-        self.start + usize::from(!self.card.text(self.start + 1).is_empty())
+        2 + usize::from(!self.card.text(3).is_empty())
     }
 }
 
@@ -67,26 +67,23 @@ impl ElementCards {
     /// Takes a card of an element, a property, a material or a mass; any other has none.
     pub fn take(&mut self, card: &Card) -> Result<(), FileError> {
         let name = card.name.as_str();
-        // In field 6 of PSHEAR some programs have a second entry's number, and others a real number.
-        let is_second = name != "PSHEAR" || card.label(6).is_ok();
-        let is_double = TWO_TO_A_CARD.contains(&name)
-            && is_second
-            && card.filled().last().is_some_and(|&last| last > 5);
-        if !is_second {
-            (6..=9).try_for_each(|field| card.absent(field, "extension of shear panels"))?;
+        if ONE_TO_A_CARD.contains(&name) {
+            (6..=9).try_for_each(|field| {
+                card.absent(
+                    field,
+                    "second entries of a card and no factors of shear panels; give an entry a card of its own",
+                )
+            })?;
         }
-        let starts = if is_double { &[2, 6][..] } else { &[2] };
         for (row, &(connection, property, kind)) in ELEMENT_CARDS.iter().enumerate() {
-            for &start in starts {
-                if name == connection {
-                    card.keep(start, Some(row), &mut self.connections)?;
-                } else if name == property {
-                    if kind == ElementKind::Rod {
-                        self.note_torsion(card, start + 3)?;
-                    }
-                    Holder::new(card, start + 2)?;
-                    card.keep(start, (), &mut self.properties[row])?;
+            if name == connection {
+                card.keep(2, Some(row), &mut self.connections)?;
+            } else if name == property {
+                if kind == ElementKind::Rod {
+                    self.note_torsion(card, 5)?;
                 }
+                Holder::new(card, 4)?;
+                card.keep(2, (), &mut self.properties[row])?;
             }
         }
         match name {
@@ -134,7 +131,7 @@ impl ElementCards {
         };
         let field = connection.property_field();
         let property = card.referred(field, &self.properties[row], ELEMENT_CARDS[row].1)?;
-        Holder::new(&property.card, property.start + 2)
+        Holder::new(&property.card, 4)
     }
 
     /// The card that has a point mass, its own or a PMASS, and the field.
@@ -176,9 +173,9 @@ impl ElementCards {
         let (mut elements, mut members) = (Vec::new(), Members::new());
         for (&label, connection) in &self.connections {
             let holder = self.holder(connection)?;
-            let Kept { value, card, start } = connection;
+            let Kept { value, card, .. } = connection;
             let kind = value.map_or(ElementKind::Rod, |row| ELEMENT_CARDS[row].2);
-            let first_grid = if value.is_some() { start + 2 } else { 3 };
+            let first_grid = if value.is_some() { 4 } else { 3 };
             let corners = (first_grid..).take(kind.corner_count());
             let corners = corners.map(|field| Ok(card.referred(field, grids, "GRID")?.label));
             let mut material = holder.material(&self.materials)?.value;

@@ -1,7 +1,7 @@
 //! From a file to its cards: sections, comments, the free, small and large formats, and continuations.
 
 use super::card::{Card, FIELDS_PER_LINE, Field};
-use super::number::{LARGE_FIELD, SMALL_FIELD, parse_real};
+use super::number::{LARGE_FIELD, SMALL_FIELD};
 use crate::files::error::{FileError, ensure};
 use std::sync::Arc;
 
@@ -9,6 +9,9 @@ use std::sync::Arc;
 pub const LARGE_FIELDS_PER_LINE: usize = 4;
 /// Statements that read another file, in any section.
 pub const INCLUDES: [&str; 2] = ["INCLUDE", "READFILE"];
+/// Fault of a line in free format with more fields than the others have columns for.
+const TOO_MANY: &str =
+    "has more than ten fields in its line; go on in another line, which begins by a comma";
 /// Characters between words.
 const WORD_ENDS: [char; 6] = [' ', '\t', ',', '=', '\'', '"'];
 /// Fault of a line that is no line of a card.
@@ -17,27 +20,21 @@ const NO_CARD: &str = "is neither a card's name nor a continuation";
 const REPLICA: &str = "repeats the card before it, and replication (=, ==, *(n)) is not read; write the cards out, as pyNastran's read_bdf \
                        and write_bdf do";
 
-/// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with its line. The first subcase's selection
-/// counts, or else the one above all subcases.
+/// Sets of constraints that case control selects by `SPC = n` and `MPC = n`, each with its line, above all subcases
+/// or in the first.
 pub type Selected = [Option<(usize, usize)>; 2];
 
 /// One line of bulk data, cut into fields.
-#[derive(Default)]
 pub struct Line {
-    /// Number of the line in the file, from one.
-    number: usize,
-    /// Field 1 in capitals: a name, or of a continuation its tag without `+` or `*`.
-    first: String,
+    /// The line as a card: its name is field 1 in capitals, of a continuation its tag without `+` or `*`; its fields are 2 to 9, or four
+    /// large ones.
+    card: Card,
     /// True of every line that begins no card.
     continues: bool,
-    /// Fields 2 to 9, or four large ones, or those of several such lines.
-    data: Vec<Field>,
     /// Fields of a line in its format.
     count: usize,
     /// Field 10.
     tag: String,
-    /// Error of the line, if it belongs to a card that is read.
-    fault: Option<FileError>,
 }
 
 impl Line {
@@ -46,14 +43,15 @@ impl Line {
     fn follows(&self, tag: &str) -> bool {
         let whole = tag.trim_start_matches(['+', '*']);
         let behind: String = tag.chars().skip(1).collect();
-        self.first.is_empty() || [whole, behind.trim()].contains(&self.first.as_str())
+        let own = self.card.name.as_str();
+        own.is_empty() || [whole, behind.trim()].contains(&own)
     }
 }
 
 /// Case control's selection, `None` for a file of bulk data alone, and the lines of bulk data; `$` begins a comment.
 ///
 /// PARAM and INCLUDE statements in front of the bulk data belong to the model too and are among its lines.
-pub fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
+pub fn sections(file: &Arc<str>, text: &str) -> Result<(Option<Selected>, Vec<Line>), FileError> {
     let code = |line: &str| {
         line.split('$')
             .next()
@@ -78,14 +76,13 @@ pub fn sections(file: &str, text: &str) -> Result<(Option<Selected>, Vec<Line>),
         ));
     }
     let (control, bulk) = lines.split_at(begin.map_or(0, |row| row + 1));
-    let (mut levels, mut subcases) = ([Selected::default(); 2], 0);
+    let (mut selected, mut subcases) = (Selected::default(), 0);
     for (number, line) in control {
         subcases += usize::from(word(line, 0) == Some("SUBCASE"));
-        if let Some(level) = levels.get_mut(subcases) {
-            select(file, *number, line, level)?;
+        if subcases < 2 {
+            select(file, *number, line, &mut selected)?;
         }
     }
-    let selected = [0, 1].map(|row| levels[1][row].or(levels[0][row]));
     let is_of_model = |line: &str| word(line, 0) == Some("PARAM") || include(line).is_some();
     // Programs write a checksum or remarks behind the word.
     let is_end = |line: &str| word(line, 0) == Some("ENDDATA");
@@ -121,7 +118,8 @@ fn select(file: &str, line: usize, text: &str, [spc, mpc]: &mut Selected) -> Res
     let set = set.filter(|set| slot.is_none_or(|(earlier, _)| earlier == *set));
     *slot = set.map(|set| (set, line));
     ensure(slot.is_some(), || {
-        let reason = "must select one set of constraints by its number";
+        let reason =
+            "must select one set of constraints by its number, in a subcase the same as above it";
         FileError::line(file, line, format!("\"{}\" {reason}", text.trim()))
     })
 }
@@ -131,10 +129,10 @@ fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic())
 }
 
-/// Cuts a line into field 1, the fields behind it, field 10 among them, and tells the width and the number of a line's fields and whether it
-/// is in free format, as with a comma behind its first word. Otherwise an asterisk behind the name or in front of a continuation means
-/// fields of 16 characters, its absence fields of 8.
-fn cut(text: &str) -> (String, Vec<String>, [usize; 2], bool) {
+/// Cuts a line into field 1 and the fields behind it, field 10 among them, and tells the number of a line's fields. It is in free format with
+/// a comma behind its first word. Otherwise an asterisk behind the name or in front of a continuation means fields of 16 characters, its
+/// absence fields of 8.
+fn cut(text: &str) -> (String, Vec<String>, usize) {
     // A continuation whose first eight columns are blank is in fixed format.
     let is_indented = text.starts_with(&" ".repeat(SMALL_FIELD));
     let first = text.split(',').next().unwrap_or_default().trim();
@@ -160,64 +158,40 @@ fn cut(text: &str) -> (String, Vec<String>, [usize; 2], bool) {
         // Text behind column 80 does not count.
         cells.push(slice(SMALL_FIELD + width * count, SMALL_FIELD));
     }
-    (name, cells, [width, count], is_free)
+    (name, cells, count)
 }
 
-fn fields(file: &str, number: usize, text: &str) -> Line {
-    if let Some(name) = include(text) {
-        return Line {
-            number,
-            first: name.to_owned(),
-            ..Line::default()
-        };
-    }
-    let (name, cells, [width, count], is_free) = cut(text);
-    let name = name.trim();
-    // A free line of more fields goes on as the next would, whose field 1 may stand behind field 10 as its tag, or at once.
-    let is_tag = |cell: &String| cell.trim().is_empty() || cell.trim().starts_with(['+', '*']);
-    let is_tagged = cells.len() <= count + 1 || is_tag(&cells[count]);
-    let most = if is_tagged { count } else { cells.len() };
-    let (mut data, mut tag) = (Vec::new(), String::new());
-    for cells in cells.chunks(most + 1) {
-        let (own, last) = cells.split_at(most.min(cells.len()));
-        data.extend(own.iter().map(|cell| Field {
-            text: cell.trim().to_owned(),
-            line: number,
-        }));
-        let whole = data.len().next_multiple_of(count);
-        data.resize(whole, Field::blank(number));
-        tag = last.concat().trim().to_owned();
-    }
-    let wrong = |text: &str, what: &str| {
-        let reason = format!("\"{}\" {what}", text.trim());
-        Some(FileError::line(file, number, reason))
+fn fields(file: &Arc<str>, line: usize, text: &str) -> Line {
+    let (name, mut cells, count) = match include(text) {
+        Some(name) => (name.to_owned(), Vec::new(), FIELDS_PER_LINE),
+        None => cut(text),
     };
+    let name = name.trim();
+    let wrong = |what: &str| Some((line, format!("\"{name}\" {what}")));
     // What reads the card before a line that is none finds out whether it matters.
     let (first, fault) = match name.chars().next() {
-        Some('=') => ("", wrong(name, REPLICA)),
+        Some('=') => ("", wrong(REPLICA)),
         None | Some('+' | '*') => (name.trim_start_matches(['+', '*']), None),
         _ if is_name(name) => (name.trim_end_matches('*'), None),
-        _ => ("", wrong(name, NO_CARD)),
+        _ => ("", wrong(NO_CARD)),
     };
-    // Real numbers of the free format may be longer than others.
-    let is_long = |field: &&Field| {
-        let is_number = is_free && parse_real(&field.text).is_some();
-        field.text.chars().count() > width && !is_number
-    };
-    let long = data.iter().find(is_long);
+    let fault = fault.or(wrong(TOO_MANY).filter(|_| cells.len() > count + 1));
+    cells.resize(count + 1, String::new());
+    let mut fields = cells.iter().map(|cell| Field {
+        text: cell.trim().to_owned(),
+        line,
+    });
     Line {
-        number,
-        first: first.to_owned(),
+        card: Card {
+            file: file.clone(),
+            line,
+            name: first.to_owned(),
+            fields: fields.by_ref().take(count).collect(),
+            fault,
+        },
         continues: !is_name(name),
-        fault: fault.or_else(|| {
-            wrong(
-                &long?.text,
-                "is longer than a field: 8 characters, or 16 with an asterisk",
-            )
-        }),
-        data,
         count,
-        tag,
+        tag: fields.next().map_or_else(String::new, |field| field.text),
     }
 }
 
@@ -235,57 +209,37 @@ fn expand_tabs(text: &str) -> Vec<char> {
 
 /// The bulk data cards of a text whatever they are, in the order of the file.
 pub fn cards(file: &str, text: &str) -> Result<Vec<Card>, FileError> {
-    join(&file.into(), sections(file, text)?.1)?
+    join(sections(&file.into(), text)?.1)?
         .into_iter()
-        .map(Joined::sound)
+        .map(Card::sound)
         .collect()
-}
-
-/// A card, and what is wrong with its lines or their order.
-pub struct Joined {
-    pub card: Card,
-    fault: Option<FileError>,
-}
-
-impl Joined {
-    /// The card, unless something is wrong with it.
-    pub fn sound(self) -> Result<Card, FileError> {
-        self.fault.map_or(Ok(self.card), Err)
-    }
 }
 
 /// Joins lines to cards, in the order of the file. A continuation stands directly behind its card, with the tag at the end of the line
 /// before it or without one.
-pub fn join(file: &Arc<str>, lines: Vec<Line>) -> Result<Vec<Joined>, FileError> {
-    let mut cards: Vec<Joined> = Vec::new();
+pub fn join(lines: Vec<Line>) -> Result<Vec<Card>, FileError> {
+    let mut cards: Vec<Card> = Vec::new();
     let mut tag = String::new();
     for line in lines {
         match cards.last_mut() {
-            _ if !line.continues => cards.push(Joined {
-                card: Card {
-                    file: file.clone(),
-                    line: line.number,
-                    name: line.first,
-                    fields: line.data,
-                },
-                fault: line.fault,
-            }),
-            Some(Joined { card, fault }) if line.follows(&tag) => {
+            _ if !line.continues => cards.push(line.card),
+            Some(card) if line.follows(&tag) => {
                 // The second half of a card of the large format may be missing.
                 if line.count == FIELDS_PER_LINE {
                     let whole = card.fields.len().next_multiple_of(FIELDS_PER_LINE);
-                    card.fields.resize(whole, Field::blank(line.number));
+                    card.fields.resize(whole, Field::blank(line.card.line));
                 }
-                card.fields.extend(line.data);
-                *fault = fault.take().or(line.fault);
+                card.fields.extend(line.card.fields);
+                card.fault = card.fault.take().or(line.card.fault);
             }
             _ => {
+                let mut own = line.card;
                 let reason = format!(
                     "continuation +{} does not stand directly behind the line that ends with its tag; move it there, or correct its tag",
-                    line.first
+                    own.name
                 );
-                let astray = FileError::line(file, line.number, reason);
-                return Err(line.fault.unwrap_or(astray));
+                own.fault.get_or_insert((own.line, reason));
+                own.sound()?;
             }
         }
         // Field 10 without a continuation is a remark.

@@ -138,17 +138,11 @@ impl BulkData {
             element.size = size;
         }
         let base = all.first_free_label();
+        let coupling = (mass - DMatrix::from_diagonal(&mass.diagonal())).amax();
+        let owner = || "the dynamic mass".into();
+        let wanted = "zero: a deck has point masses alone";
+        require(coupling == 0.0, "coupling", owner, coupling, wanted)?;
         for (column, &position) in points.iter().enumerate() {
-            for row in (0..mass.nrows()).filter(|&row| row != column) {
-                let (coupling, owner) = (mass[(row, column)], || "the dynamic mass".into());
-                require(
-                    coupling == 0.0,
-                    "coupling",
-                    owner,
-                    coupling,
-                    "zero: a deck has point masses alone",
-                )?;
-            }
             let label = base + column;
             all.grids.push(Grid {
                 label,
@@ -219,7 +213,7 @@ impl BulkData {
     /// something touches.
     ///
     /// # Errors
-    /// [`FileError::TiedElement`] for an element at a dependent DOF; the errors of [`Structure::new`].
+    /// [`FileError::Refused`] for an element at a dependent DOF; the errors of [`Structure::new`].
     pub fn structure(&self) -> Result<Structure, FileError> {
         let tied = self.tie_of();
         let corners = self
@@ -230,11 +224,13 @@ impl BulkData {
             let is_tied =
                 |&direction: &usize| tied.contains_key(&StructuralDof { grid, direction });
             if let Some(direction) = (0..3).find(is_tied) {
-                return Err(FileError::TiedElement {
-                    element,
-                    grid,
-                    direction: DIRECTIONS[direction],
-                });
+                let along = DIRECTIONS[direction];
+                return Err(FileError::refused(
+                    format!("element {element}"),
+                    format!(
+                        "an MPC equation ties its grid {grid} along {along}; an element's grids must move freely"
+                    ),
+                ));
             }
         }
         let untouched = self.untouched();
@@ -288,7 +284,7 @@ impl BulkData {
     /// x, y and z.
     ///
     /// # Errors
-    /// The errors of [`Self::structure`], such as [`FileError::TiedElement`].
+    /// The errors of [`Self::structure`].
     pub fn placed_masses(&self) -> Result<Vec<PlacedMass>, FileError> {
         let structure = self.structure()?;
         let of_element = |(element, corners): (&Element, &Vec<Point>)| {

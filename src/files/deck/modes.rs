@@ -5,7 +5,6 @@ use crate::files::error::{FileError, ensure};
 use crate::files::test_data::row_name;
 use crate::method::appendix_a::{ElementMatrix, element_matrices};
 use crate::method::error::Error;
-use crate::method::linear_algebra::symmetric_eigen;
 use crate::method::structure::{DIRECTIONS, StructuralDof, Structure};
 use crate::sparse::elements::{largest_entry, stiffness_of, support};
 use crate::sparse::whole_modes::{MassDof, WholeModes, whole_modes};
@@ -14,15 +13,16 @@ use nalgebra::RowDVector;
 /// Largest ratio of the stiffness of two elements. An assembled entry holds 16 digits of the stiffer one; at a ratio of
 /// 1e10 six digits of the lowest frequency are left.
 const LARGEST_RATIO: f64 = 1e10;
-/// Eigenvalue of the Gram matrix of the masses' motions, each of length one, above which they are independent: motions
-/// that differ by one part in 1e5, far more than fields of 8 characters round.
-const INDEPENDENT: f64 = 1e-10;
+/// Singular value of the masses' motions, each of length one, above which they are independent: motions that differ by one part in 1e5,
+/// far more than fields of 8 characters round.
+const INDEPENDENT: f64 = 1e-5;
 
 /// The lowest vibrations of the model that a deck describes, held or free, at its DOF with mass ([`BulkData::mass_dof`]): `most` of them,
-/// or all of finite frequency, which are as many as there are masses that move independently.
+/// or all of finite frequency. Of a held structure these are as many as masses move independently, which are counted where fewer are found:
+/// frequencies some three million times the lowest are lost.
 ///
 /// # Errors
-/// [`FileError::StiffnessRange`] and [`FileError::LostModes`] for a structure so badly scaled that modes would be lost;
+/// [`FileError::Refused`] for elements so unlike in stiffness that modes would be lost;
 /// [`Error::Value`] for a squared frequency or a mass beyond the range of numbers.
 pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
     let structure = model.structure()?;
@@ -46,8 +46,7 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
             other => other,
         })?;
     if found.rigid_body == 0 && found.modes.len() < most.min(found.dof.len()) {
-        check_count(found.modes.len(), model.mass_dof(&structure)?)?;
-        found.counted = Some(found.modes.len());
+        found.counted = Some(independent(model.mass_dof(&structure)?));
     }
     Ok(found)
 }
@@ -55,7 +54,7 @@ pub fn modes(model: &BulkData, most: usize) -> Result<WholeModes, FileError> {
 /// Shapes of a deck's modes at every degree of freedom that moves, those that MPC equations make dependent among them: a row each.
 ///
 /// # Errors
-/// [`FileError::TiedElement`] and what [`Structure::new`] refuses.
+/// [`FileError::Refused`] for an element at a dependent degree of freedom, and what [`Structure::new`] refuses.
 pub fn moving(
     model: &BulkData,
     modes: &WholeModes,
@@ -78,50 +77,34 @@ pub fn moving(
 /// The stiffness of an element is the largest entry of its matrix, held DOF included: its direction may leave only round-off at the
 /// free ones.
 fn check_stiffness(structure: &Structure, elements: &[ElementMatrix]) -> Result<(), FileError> {
-    let (mut softest, mut stiffest) = ((f64::INFINITY, 0), (0.0, 0));
-    let elements = structure.elements().iter().zip(elements);
-    for ((element, matrix), corners) in elements.zip(structure.corners()) {
-        if !matrix.dof.is_empty() {
+    let stiffness = (structure.elements().iter().zip(elements))
+        .zip(structure.corners())
+        .filter(|((_, matrix), _)| !matrix.dof.is_empty())
+        .map(|((element, matrix), corners)| {
             let largest = element.size * largest_entry(matrix, element, corners);
-            if largest < softest.0 {
-                softest = (largest, element.label);
-            }
-            if largest > stiffest.0 {
-                stiffest = (largest, element.label);
-            }
-        }
-    }
-    let most = LARGEST_RATIO;
-    ensure(stiffest.0 <= most * softest.0, || {
-        FileError::StiffnessRange {
-            most,
-            softest,
-            stiffest,
-        }
+            (largest, element.label)
+        });
+    let by = |one: &(f64, usize), other: &(f64, usize)| one.0.total_cmp(&other.0);
+    let (least, most) = (stiffness.clone().min_by(by), stiffness.max_by(by));
+    let (Some(least), Some(most)) = (least, most) else {
+        return Ok(());
+    };
+    ensure(most.0 <= LARGEST_RATIO * least.0, || {
+        FileError::refused(
+            format!("element {} ({:.3e} lbf/in)", most.1, most.0),
+            format!(
+                "it is more than {LARGEST_RATIO:.0e} times as stiff as element {} ({:.3e} lbf/in), and double precision loses the softer one",
+                least.1, least.0
+            ),
+        )
     })
 }
 
-/// Errors if fewer modes were found than masses move independently.
-fn check_count(found: usize, at: MassDof) -> Result<(), FileError> {
-    let place = |row: usize| format!("grid {}", row_name(row, &at.dof));
-    let [lightest, heaviest] =
-        [at.mass.imin(), at.mass.imax()].map(|row| (at.mass[row], place(row)));
+/// The number of masses that move independently, which is that of the modes of a held structure.
+fn independent(at: MassDof) -> usize {
     let mut motions = at.load_distribution.dense();
     for mut motion in motions.column_iter_mut() {
         motion.normalize_mut();
     }
-    // The smaller of the two Gram matrices; their nonzero eigenvalues are the same.
-    let gram = if motions.nrows() < motions.ncols() {
-        &motions * motions.transpose()
-    } else {
-        motions.tr_mul(&motions)
-    };
-    let (values, _) = symmetric_eigen("motions of masses", &gram)?;
-    let expected = values.iter().filter(|&&value| value > INDEPENDENT).count();
-    ensure(found >= expected, || FileError::LostModes {
-        expected,
-        found,
-        lightest,
-        heaviest,
-    })
+    motions.rank(INDEPENDENT)
 }

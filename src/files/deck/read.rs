@@ -5,7 +5,7 @@ use super::card::{Card, Kept, Numbered};
 use super::constraints::Constraints;
 use super::coordinates;
 use super::elements::{ElementCards, Members};
-use super::lines::{INCLUDES, Joined, Selected, join, sections};
+use super::lines::{INCLUDES, Selected, join, sections};
 use super::model::{BulkData, PointMass};
 use super::number::nearest_in_field;
 use crate::files::error::FileError;
@@ -32,8 +32,8 @@ pub struct Deck {
 /// those ignored, except EIGR and EIGRL: they say how to look for eigenvalues. Every other card is an error.
 ///
 /// # Errors
-/// [`FileError::DeckCards`] lists all cards that are not read, if one of them is not understood; [`FileError::DeckLine`] and
-/// [`FileError::DeckField`] name file, line, card and field; [`FileError::Refused`] if a name to be ignored is that of a card that is read.
+/// [`FileError::DeckCards`] lists all cards that are not read, if one of them is not understood; [`FileError::DeckLine`]
+/// names file, line, card and field; [`FileError::Refused`] if a name to be ignored is that of a card that is read.
 pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileError> {
     let ignored: Vec<String> = ignored
         .iter()
@@ -48,10 +48,10 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
     if text.starts_with(&[0xff, 0xfe]) || text.starts_with(&[0xfe, 0xff]) {
         return Err(FileError::refused(file, "is in UTF-16; save it in UTF-8"));
     }
-    let (selected, lines) = sections(file, &readable(file, text)?)?;
-    let (cards, others): (Vec<Joined>, Vec<Joined>) = join(&file.into(), lines)?
+    let (selected, lines) = sections(&file.into(), &readable(file, text)?)?;
+    let (cards, others): (Vec<Card>, Vec<Card>) = join(lines)?
         .into_iter()
-        .partition(|found| kind(&name(&found.card)) == Some(READ));
+        .partition(|card| kind(&name(card)) == Some(READ));
     let why = |card: &Card| {
         let name = name(card);
         match kind(&name) {
@@ -64,7 +64,7 @@ pub fn read(file: &str, text: &[u8], ignored: &[String]) -> Result<Deck, FileErr
     };
     let mut unread: Vec<Unread> = others
         .iter()
-        .map(|found| one_unread(&found.card, why(&found.card)))
+        .map(|card| one_unread(card, why(card)))
         .collect();
     let refused = [Reason::Lacking, Reason::Elsewhere, Reason::Unknown];
     let is_refused = |card: &&mut Unread| refused.contains(&card.reason);

@@ -32,7 +32,7 @@ struct Changes {
 /// of their own in front of it, and a new density gets a new MAT1 card. Every other byte stays.
 ///
 /// # Errors
-/// [`FileError::DeckLine`] and [`FileError::DeckField`] where the deck does not read, or masses of one PMASS have different factors;
+/// [`FileError::DeckLine`] where the deck does not read, or masses of one PMASS have different factors;
 /// [`Error::Value`](crate::method::error::Error::Value) and [`Error::Count`](crate::method::error::Error::Count) for numbers that no card
 /// can hold.
 pub fn rewrite(
@@ -117,7 +117,7 @@ impl Changes {
                 } else {
                     texts[0] = self.next_number();
                     for member in members {
-                        self.set(&member.card, member.start + 1, texts[0].clone());
+                        self.set(&member.card, 3, texts[0].clone());
                     }
                     self.add(card, &texts)?;
                 }
