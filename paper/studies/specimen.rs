@@ -11,10 +11,6 @@ pub struct Specimen {
     pub model: DynamicModel,
     /// Its test, without noise.
     pub test: Modes,
-    /// How it is correlated.
-    pub settings: Settings,
-    /// Bounds on its parameters' factors.
-    pub ranges: Vec<Option<Bounds>>,
 }
 
 impl Specimen {
@@ -25,7 +21,7 @@ impl Specimen {
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
         let (model, test) = (Weighed(case.model()?), case.test_modes()?);
         let name = format!("Case {}", case.number);
-        Ok(Self::of(&name, &model, test, case.settings.clone())?)
+        Ok(Self::of(&name, &model, test)?)
     }
 
     /// The delta wing with its wrong gages, and ten modes at 19 points.
@@ -38,23 +34,14 @@ impl Specimen {
             correlation::first_model(&wing)?,
             correlation::test_modes(&wing)?,
         );
-        Ok(Self::of(
-            "Delta wing",
-            &model,
-            test,
-            correlation::settings(),
-        )?)
+        Ok(Self::of("Delta wing", &model, test)?)
     }
 
-    fn of(name: &str, model: &Weighed, test: Modes, settings: Settings) -> Result<Self, Error> {
-        let (name, ranges) = (name.to_owned(), model.factor_ranges()?);
-        let model = model.matrices(&vec![1.0; ranges.len()])?;
+    fn of(name: &str, model: &Weighed, test: Modes) -> Result<Self, Error> {
         Ok(Self {
-            name,
-            model,
+            name: name.to_owned(),
+            model: model.matrices(&vec![1.0; model.factor_ranges()?.len()])?,
             test,
-            settings,
-            ranges,
         })
     }
 
@@ -75,13 +62,6 @@ impl Specimen {
             shares: shares.iter().map(seen_share).collect(),
             modes,
         };
-        let names = Names::default();
-        preflight_at_sensors(
-            &seen,
-            (&self.test, &[]),
-            &self.settings,
-            &self.ranges,
-            &names,
-        )
+        preflight_at_sensors(&seen, (&self.test, &[]), &Names::default())
     }
 }

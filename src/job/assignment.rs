@@ -1,7 +1,9 @@
 //! Pairing of all modes at once, where the method's own (4) takes the closest pair first and may leave a bad one for the last.
 
-use crate::method::error::{Error, require};
-use crate::method::linear_algebra::check_finite;
+use crate::method::{
+    error::{Error, require},
+    linear_algebra::check_finite,
+};
 use nalgebra::DMatrix;
 
 /// The analysis mode of every test mode, or none, such that the `closeness` (n × g, larger for closer, as the modal assurance) of all

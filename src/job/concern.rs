@@ -72,33 +72,33 @@ pub struct Answered {
     pub answer: Answer,
 }
 
-impl Check {
-    /// All questions and their names, those of a result last.
-    const ALL: [(Self, &str); 19] = [
-        (Self::FreeMotions, "free motions"),
-        (Self::ModesMeasuredTwice, "modes measured twice"),
-        (Self::OrderOfFrequencies, "order of frequencies"),
-        (Self::CommonFactor, "factor of all frequencies"),
-        (Self::Readings, "readings of sensors"),
-        (Self::Settings, "settings"),
-        (Self::PlacesOfSensors, "places of sensors"),
-        (Self::Units, "units of the test"),
-        (Self::Pairs, "pairs"),
-        (Self::Reach, "frequencies in reach"),
-        (Self::PartsOfTheModel, "parts of the model"),
-        (Self::NumberOfModes, "number of test modes"),
-        (Self::ComplexShapes, "complex shapes"),
-        (Self::Inputs, "use of the inputs"),
-        (Self::Deviations, "deviations of the test"),
-        (Self::Sight, "what the test sees"),
-        (Self::Fit, "the fit"),
-        (Self::Intervals, "intervals"),
-        (Self::HeldOut, "modes held out"),
-    ];
+/// Names of all questions, those of a result last.
+const NAMES: [&str; 19] = [
+    "free motions",
+    "modes measured twice",
+    "order of frequencies",
+    "factor of all frequencies",
+    "readings of sensors",
+    "settings",
+    "places of sensors",
+    "units of the test",
+    "pairs",
+    "frequencies in reach",
+    "parts of the model",
+    "number of test modes",
+    "complex shapes",
+    "use of the inputs",
+    "deviations of the test",
+    "what the test sees",
+    "the fit",
+    "intervals",
+    "modes held out",
+];
 
+impl Check {
     /// Its name in results.
     pub fn name(self) -> &'static str {
-        Self::ALL[self as usize].1
+        NAMES[self as usize]
     }
 }
 
@@ -117,6 +117,9 @@ pub struct Concern {
     pub words: String,
 }
 
+/// About nothing in particular.
+pub(super) const NONE: [&str; 0] = [];
+
 /// Most characters of an identifier, so that a table of 80 columns has room for its sentence.
 const LONGEST: usize = 40;
 /// Most names that a sentence lists.
@@ -124,15 +127,31 @@ const MOST_LISTED: usize = 8;
 
 /// Names in a sentence, at most eight of them.
 pub(crate) fn some(names: &[impl ToString]) -> String {
-    let more = names.len().saturating_sub(MOST_LISTED);
-    let listed = if more > 1 { MOST_LISTED } else { names.len() };
-    let names: Vec<String> = names[..listed].iter().map(ToString::to_string).collect();
-    let rest = if more > 1 {
-        format!(" and {more} more")
-    } else {
-        String::new()
+    let listed = match names.len() {
+        all if all > MOST_LISTED + 1 => MOST_LISTED,
+        all => all,
     };
-    names.join(", ") + &rest
+    let words: Vec<String> = names[..listed].iter().map(ToString::to_string).collect();
+    match names.len() - listed {
+        0 => words.join(", "),
+        more => format!("{} and {more} more", words.join(", ")),
+    }
+}
+
+/// Places from zero as numbers from one.
+pub(super) fn numbers(places: impl IntoIterator<Item = usize>) -> Vec<usize> {
+    places.into_iter().map(|place| place + 1).collect()
+}
+
+/// A remark with a list at its end, if there is anything in it.
+pub(super) fn listed(
+    check: Check,
+    name: &str,
+    words: &str,
+    about: &[impl ToString],
+) -> Option<Concern> {
+    (!about.is_empty())
+        .then(|| Concern::remark(check, name, about, format!("{words}: {}.", some(about))))
 }
 
 impl Concern {
@@ -142,38 +161,52 @@ impl Concern {
         check: Check,
         name: &str,
         about: &[impl ToString],
-        words: String,
+        words: impl Into<String>,
     ) -> Self {
         let about: Vec<String> = about.iter().map(ToString::to_string).collect();
-        let identifier = match name.strip_suffix('-') {
-            Some(_) => format!("{name}{}", about.join("-")),
-            None => name.to_owned(),
-        };
-        let identifier = shortened(identifier.replace(char::is_whitespace, "-"));
+        let mut identifier = name.to_owned();
+        if name.ends_with('-') {
+            identifier += &about.join("-");
+        }
         Self {
             grade,
             check,
-            identifier,
+            identifier: shortened(identifier.replace(char::is_whitespace, "-")),
             about,
-            words,
+            words: words.into(),
         }
     }
 
     /// A doubt.
-    pub fn doubt(check: Check, name: &str, about: &[impl ToString], words: String) -> Self {
+    pub fn doubt(
+        check: Check,
+        name: &str,
+        about: &[impl ToString],
+        words: impl Into<String>,
+    ) -> Self {
         Self::new(Grade::Doubt, check, name, about, words)
     }
 
     /// A remark.
-    pub fn remark(check: Check, name: &str, about: &[impl ToString], words: String) -> Self {
+    pub fn remark(
+        check: Check,
+        name: &str,
+        about: &[impl ToString],
+        words: impl Into<String>,
+    ) -> Self {
         Self::new(Grade::Remark, check, name, about, words)
     }
 
     /// The remark that a question could not be answered.
     pub(super) fn not_checked(check: Check, reason: &str) -> Self {
         let name = check.name();
-        let words = format!("Not checked: {name} ({reason}).");
-        Self::new(Grade::NotChecked, check, "not-checked-", &[name], words)
+        Self::new(
+            Grade::NotChecked,
+            check,
+            "not-checked-",
+            &[name],
+            format!("Not checked: {name} ({reason})."),
+        )
     }
 
     /// True if it names a mistake that nobody answers for.
@@ -211,29 +244,33 @@ impl Trust {
         &self.concerns
     }
 
-    /// The concerns of one question.
-    pub fn of(&self, check: Check) -> impl Iterator<Item = &Concern> {
-        self.concerns.iter().filter(move |own| own.check == check)
-    }
-
     /// The answer to every question, of a result's too after a run.
     pub fn answers(&self, is_run: bool) -> Vec<Answered> {
-        let asked = Check::ALL
-            .iter()
-            .filter(|own| is_run || own.0 < Check::Sight);
-        let answer = |&(check, name)| {
-            let grades = || self.of(check).map(|own| own.grade);
-            let answer = match grades().any(|grade| grade != Grade::NotChecked) {
-                true => Answer::Yes,
-                false if grades().next().is_some() => Answer::NotChecked,
-                false => Answer::No,
-            };
-            Answered {
-                check: name,
-                answer,
-            }
+        let asked = if is_run {
+            NAMES.len()
+        } else {
+            Check::Sight as usize
         };
-        asked.map(answer).collect()
+        let answer = |(place, check): (usize, &'static str)| {
+            let own = self.concerns.iter();
+            // A question that could not be answered in part has an answer.
+            let answer = match own
+                .filter(|own| own.check as usize == place)
+                .map(|own| own.grade)
+                .min_by_key(|grade| *grade == Grade::NotChecked)
+            {
+                None => Answer::No,
+                Some(Grade::NotChecked) => Answer::NotChecked,
+                Some(_) => Answer::Yes,
+            };
+            Answered { check, answer }
+        };
+        NAMES
+            .into_iter()
+            .enumerate()
+            .take(asked)
+            .map(answer)
+            .collect()
     }
 
     /// The account after a run, with what is known since; test modes are left out by what it ended with.
@@ -242,8 +279,14 @@ impl Trust {
             let name = &own.identifier;
             name.starts_with("not-compared-") || name == "unanswered-modes"
         };
-        let before = self.concerns.iter().filter(|own| !is_of_first(own));
-        Self::new(before.cloned().chain(concerns).collect())
+        Self::new(
+            self.concerns
+                .iter()
+                .filter(|own| !is_of_first(own))
+                .cloned()
+                .chain(concerns)
+                .collect(),
+        )
     }
 
     /// The account after the user answers for the doubts of these identifiers.
@@ -251,17 +294,20 @@ impl Trust {
     /// # Errors
     /// [`FileError::Refused`] for an identifier that names no doubt, with those that there are.
     pub fn accepting(mut self, accepted: &[String]) -> Result<Self, FileError> {
-        let doubts = || self.concerns.iter().filter(|own| own.grade == Grade::Doubt);
-        if let Some(unknown) = accepted
+        let doubts: Vec<&str> = self
+            .concerns
             .iter()
-            .find(|name| doubts().all(|own| own.identifier != **name))
-        {
-            let doubts: Vec<&str> = doubts().map(|own| &own.identifier[..]).collect();
-            let reason = match &doubts[..] {
-                [] => "nothing is doubtful".to_owned(),
-                _ => format!("the doubts are {}", doubts.join(", ")),
-            };
-            return Err(FileError::refused(format!("--accept {unknown}"), reason));
+            .filter(|own| own.grade == Grade::Doubt)
+            .map(|own| &own.identifier[..])
+            .collect();
+        if let Some(unknown) = accepted.iter().find(|name| !doubts.contains(&&name[..])) {
+            return Err(FileError::refused(
+                format!("--accept {unknown}"),
+                match &doubts[..] {
+                    [] => "nothing is doubtful".to_owned(),
+                    _ => format!("the doubts are {}", doubts.join(", ")),
+                },
+            ));
         }
         for own in &mut self.concerns {
             if own.stands() && accepted.contains(&own.identifier) {

@@ -1,18 +1,24 @@
 //! The factors of a job and how they were found: its third value.
 
 use super::{Method, PreparedJob};
-use crate::files::error::FileError;
-use crate::method::error::Error;
-use crate::method::outer_loop::{Correlation, Pass, correlate};
-use crate::method::step::Bounds;
-use crate::sparse::{Deflections, ModeWeight, Work};
-use crate::weighted::comparison::Comparison;
-use crate::weighted::gauss_newton::{LOWER, WeightedCorrelation, gauss_newton, gauss_newton_below};
-use crate::weighted::intervals::MOST_FOLLOWED;
-use crate::weighted::lower_place::lower_place;
-use crate::weighted::misfit::{Misfit, most_by_noise};
-use crate::weighted::residuals::residuals;
-use crate::weighted::starts::{WeightedHistory, from_several_starts};
+use crate::{
+    files::error::FileError,
+    method::{
+        error::Error,
+        outer_loop::{Correlation, Pass, correlate},
+        step::Bounds,
+    },
+    sparse::{Deflections, ModeWeight, Work},
+    weighted::{
+        comparison::Comparison,
+        gauss_newton::{LOWER, WeightedCorrelation, gauss_newton, gauss_newton_below},
+        intervals::MOST_FOLLOWED,
+        lower_place::lower_place,
+        misfit::{Misfit, most_by_noise},
+        residuals::residuals,
+        starts::{WeightedHistory, from_several_starts},
+    },
+};
 
 /// Most ends of one run that a lower place is gone to from.
 const MOST_LEFT: usize = 5;
@@ -55,18 +61,18 @@ pub struct CorrelatedJob {
 }
 
 /// What a caller hears and says while factors are looked for.
-pub(super) struct Caller<'a> {
+pub struct Caller<'a> {
     /// Gets a line for every pass or improvement.
-    pub progress: &'a dyn Fn(&str),
+    pub progress: &'a mut dyn FnMut(&str),
     /// Says after each whether to continue.
     pub go_on: &'a dyn Fn() -> bool,
 }
 
-/// Factors, how they were found, the model there, the number of analyses, and whether a look about them found nothing lower.
-type Found = (Vec<f64>, History, Comparison, usize, bool);
+/// Factors, how they were found, the number of analyses, and whether a look about them found nothing lower.
+type Found = (Vec<f64>, History, usize, bool);
 
 impl PreparedJob {
-    /// The factors of the job, from given ones on.
+    /// The factors of the job.
     ///
     /// Test modes that were left out are compared, from the end on, if modes of the model there are like them, and each alone where all
     /// together lead to a place that explains the others worse ([`CorrelatedJob::explains`]). A mode that does so alone stays left out
@@ -74,13 +80,9 @@ impl PreparedJob {
     ///
     /// # Errors
     /// [`FileError::Refused`] for a test in which no mode has a partner; the errors of the analyses and of the loops.
-    pub(super) fn correlate(
-        &self,
-        start: &[f64],
-        caller: &Caller,
-    ) -> Result<CorrelatedJob, FileError> {
+    pub(super) fn correlate(&self, caller: &mut Caller) -> Result<CorrelatedJob, FileError> {
         self.check_paired()?;
-        let mut found = self.run(start, caller)?;
+        let mut found = self.run(&self.loaded.ones(), caller)?;
         let mut most = usize::MAX;
         while !found.is_interrupted
             && let Some(joined) = found.prepared.joined_by(&found.last, most)?
@@ -89,7 +91,7 @@ impl PreparedJob {
             let next = joined.run(&found.factors, caller)?;
             let analyses = found.analyses + next.analyses;
             if next.is_interrupted || next.explains(&found)? {
-                let first = joined.analyze(start)?.with_slopes()?;
+                let first = joined.first_comparison()?.with_slopes()?;
                 (found, most) = (CorrelatedJob { first, ..next }, usize::MAX);
             } else if joined.modes.len() > found.prepared.modes.len() + 1 {
                 most = 1;
@@ -102,11 +104,22 @@ impl PreparedJob {
     }
 
     /// One run, with the same test modes compared all the way.
-    fn run(&self, start: &[f64], caller: &Caller) -> Result<CorrelatedJob, FileError> {
-        let first = self.analyze(start)?.with_slopes()?;
-        let (factors, history, last, analyses, is_lowest) = match self.loaded.job.compare.method {
+    fn run(&self, start: &[f64], caller: &mut Caller) -> Result<CorrelatedJob, FileError> {
+        let first = match start == self.loaded.ones() {
+            true => self.first_comparison()?,
+            false => self.analyze(start)?,
+        };
+        let first = first.with_slopes()?;
+        let (factors, history, mut analyses, is_lowest) = match self.loaded.job.compare.method {
             Method::Paper => self.by_loops((start, &first), caller)?,
             Method::GaussNewton => self.by_weighted_steps((start, &first), caller)?,
+        };
+        let last = match &history {
+            History::GaussNewton(Some(steps)) => steps.best.last.clone(),
+            _ => {
+                analyses += 1;
+                self.analyze(&factors)?.with_slopes()?
+            }
         };
         Ok(CorrelatedJob {
             prepared: self.clone(),
@@ -125,12 +138,15 @@ impl PreparedJob {
     fn by_loops(
         &self,
         (start, first): (&[f64], &Comparison),
-        caller: &Caller,
+        caller: &mut Caller,
     ) -> Result<Found, FileError> {
         let job = &self.loaded.job;
         let total = |factors: &[f64]| -> Vec<f64> {
-            let both = factors.iter().zip(start);
-            both.map(|(factor, start)| factor * start).collect()
+            factors
+                .iter()
+                .zip(start)
+                .map(|(factor, start)| factor * start)
+                .collect()
         };
         let report_pass = |number: usize, pass: &Pass| {
             let errors = &pass.check.errors;
@@ -150,17 +166,18 @@ impl PreparedJob {
             analyses += 1;
             Ok::<_, Error>(self.analyze(&factors)?.into_model())
         };
-        let settings = job.correlation.for_modes(self.modes.len());
-        let ranges = self.loaded.source.whole.ranges().into_iter().zip(start);
-        let ranges: Vec<_> = ranges
-            .map(|(range, start)| {
-                range.map(|range| Bounds {
-                    lower: range.lower / start,
-                    upper: range.upper / start,
-                })
-            })
-            .collect();
-        let run = correlate(analyze, &ranges, &settings, report_pass);
+        let mut ranges = self.loaded.source.whole.ranges();
+        for (range, start) in ranges.iter_mut().zip(start) {
+            if let Some(Bounds { lower, upper }) = range {
+                (*lower, *upper) = (*lower / start, *upper / start);
+            }
+        }
+        let run = correlate(
+            analyze,
+            &ranges,
+            &job.correlation.for_modes(self.modes.len()),
+            report_pass,
+        );
         let mut run = run.map_err(|error| match error {
             error if error.is_of_close_modes() => job.refused(format!(
                 "the paper's loops need modes that stay apart: {error}; compare.method = \"gauss_newton\" needs none"
@@ -172,24 +189,18 @@ impl PreparedJob {
         }
         run.best_factors = total(&run.best_factors);
         let factors = run.best_factors.clone();
-        let last = self.analyze(&factors)?.with_slopes()?;
-        Ok((
-            factors,
-            History::Paper(Box::new(run)),
-            last,
-            analyses + 1,
-            false,
-        ))
+        Ok((factors, History::Paper(Box::new(run)), analyses, false))
     }
 
     /// Weighted Gauss–Newton steps from the start, and from others where there are several.
     fn by_weighted_steps(
         &self,
         (start, first): (&[f64], &Comparison),
-        caller: &Caller,
+        caller: &mut Caller,
     ) -> Result<Found, FileError> {
         let (compare, ranges) = (&self.loaded.job.compare, self.loaded.source.whole.ranges());
         let (weights, settings) = (self.weights(), self.weighted_settings());
+        let go_on = caller.go_on;
         let (mut analyses, mut near, mut is_over) = (1, None, false);
         let mut best = (f64::INFINITY, start.to_vec());
         let mut analyze = |factors: &[f64]| {
@@ -211,7 +222,7 @@ impl PreparedJob {
                 best = (objective, factors.to_vec());
                 (caller.progress)(&format!("sum of squares {objective:.4e}"));
             }
-            is_over = !(caller.go_on)();
+            is_over = !go_on();
             match is_over {
                 true => Err(FileError::Interrupted),
                 false => Ok(model),
@@ -225,7 +236,7 @@ impl PreparedJob {
                 &weights,
                 &settings,
                 (starts, compare.seed),
-                caller.go_on,
+                go_on,
             ),
             _ => gauss_newton(&mut analyze, start, &ranges, &weights, &settings).map(|run| {
                 WeightedHistory {
@@ -245,19 +256,12 @@ impl PreparedJob {
         });
         match steps {
             Ok(steps) if !is_over => {
-                let (factors, last) = (steps.best.factors.clone(), steps.best.last.clone());
+                let factors = steps.best.factors.clone();
                 let history = History::GaussNewton(Some(Box::new(steps)));
-                Ok((factors, history, last, analyses, is_lowest))
+                Ok((factors, history, analyses, is_lowest))
             }
             Ok(_) | Err(FileError::Interrupted) => {
-                let last = self.analyze(&best.1)?.with_slopes()?;
-                Ok((
-                    best.1,
-                    History::GaussNewton(None),
-                    last,
-                    analyses + 1,
-                    false,
-                ))
+                Ok((best.1, History::GaussNewton(None), analyses, false))
             }
             Err(error) => Err(error),
         }
@@ -282,10 +286,11 @@ impl PreparedJob {
         for _ in 0..MOST_LEFT {
             // A minimum that noise does not explain is not the truth's.
             let is_doubted = !Misfit::of(&run.last, &weights, &source.priors, &[])?.is_by_noise();
-            let size = 2 * self.modes.len() + ranges.len().min(MOST_DEFLECTIONS);
             let basis = run
                 .last
-                .with_model(run.last.model.in_basis(Deflections::All(size))?);
+                .with_model(run.last.model.in_basis(Deflections::All(
+                    2 * self.modes.len() + ranges.len().min(MOST_DEFLECTIONS),
+                ))?);
             let follow = &mut |at: &[f64]| match source.whole.dof_count() <= MOST_ROWS {
                 true => self.analyze(at),
                 false => basis.about(&run.factors)(at),
@@ -296,7 +301,7 @@ impl PreparedJob {
                 return Ok((run, !is_doubted));
             };
             match steps_below(run.objective - LOWER, &place) {
-                Err(stop @ FileError::Interrupted) => return Err(stop),
+                Err(FileError::Interrupted) => return Err(FileError::Interrupted),
                 Ok(next) if next.objective < run.objective - LOWER => run = run.and_then(next),
                 // What was lower in the basis alone is not.
                 _ => return Ok((run, !is_doubted)),
@@ -317,8 +322,8 @@ impl CorrelatedJob {
                 *weight = ModeWeight::NONE;
             }
         }
-        let before = residuals(&earlier.last, &earlier.prepared.weights())?.norm_squared();
-        let rise = residuals(&self.last, &weights)?.norm_squared() - before;
+        let rise = residuals(&self.last, &weights)?.norm_squared()
+            - residuals(&earlier.last, &earlier.prepared.weights())?.norm_squared();
         Ok(rise <= most_by_noise(self.factors.len() as f64)?)
     }
 }

@@ -1,21 +1,24 @@
 //! A correlated job with everything that says how far to trust it: its last value.
 
-use super::PreparedJob;
-use super::concern::{Check, Concern, Grade, Trust, some};
-use super::concerns::{listed, numbers};
-use super::correlated::{Caller, CorrelatedJob, History};
-use super::verdict::{End, Judged, Verdict, sum_of_nine_modes};
-use crate::files::error::FileError;
-use crate::method::error_sum::mode_errors;
-use crate::method::step::Bounds;
-use crate::sparse::Deflections;
-use crate::weighted::comparison::ModeErrors;
-use crate::weighted::gauss_newton::WeightedStop;
-use crate::weighted::identifiability::{Identifiability, identifiability};
-use crate::weighted::intervals::{Withheld, intervals};
-use crate::weighted::misfit::{Misfit, Prediction};
-use crate::weighted::residuals::jacobian;
-use std::cell::RefCell;
+use super::{
+    PreparedJob,
+    concern::{Check, Concern, Grade, NONE, Trust, listed, numbers, some},
+    correlated::{Caller, CorrelatedJob, History},
+    verdict::{End, Judged, Verdict, sum_of_nine_modes},
+};
+use crate::{
+    files::error::FileError,
+    method::{error_sum::mode_errors, step::Bounds},
+    sparse::Deflections,
+    weighted::{
+        comparison::ModeErrors,
+        gauss_newton::WeightedStop,
+        identifiability::{Identifiability, identifiability},
+        intervals::{Withheld, intervals},
+        misfit::{Misfit, Prediction},
+        residuals::jacobian,
+    },
+};
 
 /// The result of a job.
 #[derive(Debug, Clone)]
@@ -48,17 +51,18 @@ pub struct JobResult {
 pub fn run(
     prepared: &PreparedJob,
     trust: &Trust,
-    progress: impl FnMut(&str),
+    mut progress: impl FnMut(&str),
     go_on: impl Fn() -> bool,
 ) -> Result<JobResult, FileError> {
     prepared.loaded.require_parameters()?;
-    let progress = RefCell::new(progress);
-    let caller = Caller {
-        progress: &|line| (progress.borrow_mut())(line),
+    let mut caller = Caller {
+        progress: &mut progress,
         go_on: &go_on,
     };
-    let found = prepared.correlate(&prepared.loaded.ones(), &caller)?;
-    found.judge(trust)?.with_intervals()
+    prepared
+        .correlate(&mut caller)?
+        .judge(trust)?
+        .with_intervals()
 }
 
 impl CorrelatedJob {
@@ -72,11 +76,8 @@ impl CorrelatedJob {
         // Parameters at a bound are not fitted.
         let misfit = Misfit::of(&self.last, &weights, priors, &verdict.at_bound)?;
         // With deviations of the measurement so many times as large.
-        let sees = |model, widening| {
-            let jacobian = jacobian(model, &weights)?;
-            identifiability(&(jacobian / widening), priors)
-        };
-        let seen_first = sees(&self.first, 1.0)?;
+        let sees =
+            |model, widening| identifiability(&(jacobian(model, &weights)? / widening), priors);
         let seen = sees(&self.last, misfit.widening())?;
         // Weighted steps are judged by the noise that weighs them, where a wrong model would have failed; not those that ended short or
         // were stopped.
@@ -84,12 +85,18 @@ impl CorrelatedJob {
             verdict.is_within =
                 misfit.is_by_noise() && misfit.can_fail() && !verdict.end.is_early();
         }
-        let parameters = 0..self.factors.len();
-        verdict.unseen = parameters.filter(|&e| seen.is_mostly_prior(e)).collect();
-        let held = self.prepared.weights_of(true);
-        let predicted = Prediction::of(&self.last, &held, &seen.covariance, misfit.widening())?;
-        verdict.is_within &= predicted.iter().all(|own| own.missed.is_none());
+        verdict.unseen = (0..self.factors.len())
+            .filter(|&e| seen.is_mostly_prior(e))
+            .collect();
+        let predicted = Prediction::of(
+            &self.last,
+            &self.prepared.weights_of(true),
+            &seen.covariance,
+            misfit.widening(),
+        )?;
+        let seen_first = sees(&self.first, 1.0)?;
         let after = self.concerns(&verdict, &seen, &misfit)?;
+        verdict.is_within &= predicted.iter().all(|own| own.missed.is_none());
         Ok(JobResult {
             intervals: vec![Err(Withheld::NoOptimum); self.factors.len()],
             found: self,
@@ -104,18 +111,21 @@ impl CorrelatedJob {
 
     /// The verdict by the reason why it ended and by the tolerances.
     fn verdict(&self) -> Result<Verdict, FileError> {
-        let ranges = self.prepared.loaded.source.whole.ranges();
         let judged = Judged {
             // What a test with deviations does not see its deviations say.
             seen: &[],
-            ranges: &ranges,
+            ranges: &self.prepared.loaded.source.whole.ranges(),
         };
         let found = match &self.history {
             History::Paper(run) => {
                 let best = run.best_check();
-                let errors = mode_errors(&best.modes, &best.pairing, &self.prepared.test)?;
                 let is_stopped = self.is_interrupted;
-                return Ok(judged.of_loops(run, &errors, sum_of_nine_modes, is_stopped));
+                return Ok(judged.of_loops(
+                    run,
+                    &mode_errors(&best.modes, &best.pairing, &self.prepared.test)?,
+                    sum_of_nine_modes,
+                    is_stopped,
+                ));
             }
             History::GaussNewton(found) => found.as_ref().map(|found| &found.best),
         };
@@ -148,7 +158,7 @@ impl CorrelatedJob {
         );
         all.extend(
             (!misfit.is_by_noise())
-                .then(|| Concern::remark(Check::Fit, "misfit", &[""; 0], misfit.in_numbers())),
+                .then(|| Concern::remark(Check::Fit, "misfit", &NONE, misfit.in_numbers())),
         );
         all.extend(misfit.is_below_noise().then(|| {
             let words = format!(
@@ -156,12 +166,15 @@ impl CorrelatedJob {
                  its deviations are too large, and so are the intervals.",
                 misfit.least_by_noise, misfit.chi_squared
             );
-            Concern::remark(Check::Deviations, "below-noise", &[""; 0], words)
+            Concern::remark(Check::Deviations, "below-noise", &NONE, words)
         }));
         all.extend(self.sight_concerns(verdict, seen));
-        let joined = numbers(prepared.joined.iter().copied());
-        let since = "Test modes left out at first and compared since";
-        all.extend(listed(Check::Pairs, "joined", since, &joined));
+        all.extend(listed(
+            Check::Pairs,
+            "joined",
+            "Test modes left out at first and compared since",
+            &numbers(prepared.joined.iter().copied()),
+        ));
         all.extend(self.held_out()?.iter().map(|held| {
             let [first, last] = held.frequency;
             let shape = held.shape.map_or(String::new(), |[first, last]| {
@@ -171,8 +184,12 @@ impl CorrelatedJob {
             Concern::remark(Check::HeldOut, "held-out-", &[held.mode], words)
         }));
         all.extend(prepared.unanswered(&self.last, Some(&seen.covariance)));
-        let left = prepared.unlike(&self.last)?;
-        all.extend(left.iter().map(|own| own.concern(Grade::LeftOut)));
+        all.extend(
+            prepared
+                .unlike(&self.last)?
+                .iter()
+                .map(|own| own.concern(Grade::LeftOut)),
+        );
         Ok(all)
     }
 
@@ -185,14 +202,22 @@ impl CorrelatedJob {
         alone.retain(|e| !grouped.contains(e));
         let mut all: Vec<Concern> = Vec::new();
         all.extend(groups.iter().map(|group| {
-            let words = format!(
-                "The test cannot tell {} apart; only combinations of them are known.",
-                some(&of(group))
-            );
-            Concern::remark(Check::Sight, "not-apart-", &of(group), words)
+            Concern::remark(
+                Check::Sight,
+                "not-apart-",
+                &of(group),
+                format!(
+                    "The test cannot tell {} apart; only combinations of them are known.",
+                    some(&of(group))
+                ),
+            )
         }));
-        let prior = "Known more from the prior than from the test";
-        all.extend(listed(Check::Sight, "mostly-prior", prior, &of(&alone)));
+        all.extend(listed(
+            Check::Sight,
+            "mostly-prior",
+            "Known more from the prior than from the test",
+            &of(&alone),
+        ));
         all.extend(listed(
             Check::Sight,
             "at-bound",
@@ -206,8 +231,11 @@ impl CorrelatedJob {
     pub fn held_out(&self) -> Result<Vec<HeldOut>, FileError> {
         let (first, last) = (self.first.mode_errors()?, self.last.mode_errors()?);
         let held = &self.prepared.loaded.job.test.hold_out;
-        let both = self.prepared.compared().zip(first.iter().zip(&last));
-        let both = both.filter(|(mode, _)| held.contains(&(mode + 1)));
+        let both = self
+            .prepared
+            .compared()
+            .zip(first.iter().zip(&last))
+            .filter(|(mode, _)| held.contains(&(mode + 1)));
         let of_mode = |(mode, (first, last)): (usize, (&ModeErrors, &ModeErrors))| HeldOut {
             mode: mode + 1,
             frequency: [first, last].map(|own| 100.0 * own.frequency),
@@ -232,43 +260,32 @@ pub struct HeldOut {
 }
 
 impl JobResult {
-    /// The same with 95 % intervals where weighted steps ended at their optimum, in a basis about it with corrected slopes.
+    /// The same with 95 % intervals where weighted steps ended at their optimum, in a basis about it with corrected slopes, and a word on the
+    /// parameters that have none.
     ///
     /// # Errors
     /// The errors of the basis and of [`intervals`].
     fn with_intervals(mut self) -> Result<Self, FileError> {
-        if !self.verdict.end.is_stationary() {
-            return Ok(self.with_reasons());
+        let (found, loaded) = (&self.found, &self.found.prepared.loaded);
+        if self.verdict.end.is_stationary() {
+            let (prepared, model) = (&found.prepared, &found.last);
+            let (weights, settings) = (prepared.weights(), prepared.weighted_settings());
+            let exact = jacobian(model, &weights)?;
+            let size = Deflections::All(6 * prepared.modes.len() + 30);
+            let basis = model.in_basis(model.model.in_basis(size)?, &exact, &weights)?;
+            self.intervals = intervals(
+                &basis.about(&found.factors),
+                &found.factors,
+                &loaded.source.whole.ranges(),
+                &weights,
+                &settings,
+                self.misfit.widening(),
+            )?;
         }
-        let (prepared, factors, model) =
-            (&self.found.prepared, &self.found.factors, &self.found.last);
-        let ranges = prepared.loaded.source.whole.ranges();
-        let (weights, settings) = (prepared.weights(), prepared.weighted_settings());
-        let exact = jacobian(model, &weights)?;
-        let basis = model
-            .model
-            .in_basis(Deflections::All(6 * prepared.modes.len() + 30))?;
-        let basis = model.in_basis(basis, &exact, &weights)?;
-        let widening = self.misfit.widening();
-        self.intervals = intervals(
-            &basis.about(factors),
-            factors,
-            &ranges,
-            &weights,
-            &settings,
-            widening,
-        )?;
-        self.found.work = prepared.loaded.source.whole.work();
-        Ok(self.with_reasons())
-    }
-
-    /// A result with a word on the parameters that have no interval.
-    fn with_reasons(mut self) -> Self {
-        let loaded = &self.found.prepared.loaded;
         let reason = |withheld: &Withheld| {
             let names = loaded.parameter_names().zip(&self.intervals);
-            let names = names.filter(|(_, interval)| **interval == Err(*withheld));
-            let names: Vec<&str> = names.map(|(name, _)| name).collect();
+            let names = names.filter(|own| *own.1 == Err(*withheld));
+            let names: Vec<&str> = names.map(|own| own.0).collect();
             match (names.is_empty(), withheld) {
                 (true, _) => None,
                 // Remarks name the others.
@@ -283,6 +300,8 @@ impl JobResult {
             let skipped = Concern::not_checked(Check::Intervals, &reasons.join("; "));
             self.trust = Trust::new([self.trust.all(), &[skipped]].concat());
         }
-        self
+        let work = loaded.source.whole.work();
+        self.found.work = work;
+        Ok(self)
     }
 }

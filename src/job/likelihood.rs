@@ -1,27 +1,34 @@
 //! The likelihood of pairs of test modes and modes of a model, by shapes and frequencies.
 
-use super::assignment::{pair_cheaply, pair_optimally};
-use super::{Method, PreparedJob};
-use crate::method::error::{Error, check_count};
-use crate::method::modes::Modes;
-use crate::method::sorting::Pairing;
-use crate::method::step::Bounds;
-use crate::sparse::Pair;
-use crate::sparse::visibility::visibilities;
-use crate::weighted::identifiability::PRIOR_DEVIATION;
+use super::{
+    Method, PreparedJob,
+    assignment::{pair_cheaply, pair_optimally},
+};
+use crate::{
+    method::{
+        error::{Error, check_count},
+        modes::Modes,
+        sorting::Pairing,
+        step::Bounds,
+    },
+    sparse::{Pair, visibility::visibilities},
+    weighted::identifiability::PRIOR_DEVIATION,
+};
 use nalgebra::DMatrix;
 
 /// Deviation of a shape, of unit length, from that of its model's mode.
 const UNLIKE: f64 = 0.1;
+/// Modal assurance below which a test mode counts as without a partner.
+pub const FLOOR: f64 = 0.5;
 /// Most that a frequency costs a pair: beyond, something else is wrong with it, which shapes alone must tell.
 const MOST_BY_FREQUENCY: f64 = 20.0;
 
 /// Frequencies of test modes, and how far those of a model may be off.
-pub(super) struct Frequencies {
+pub struct Frequencies {
     /// Every test mode's (Hz), and its deviation as a fraction.
-    pub(super) test: Vec<[f64; 2]>,
+    pub test: Vec<[f64; 2]>,
     /// Deviation of the logarithm of every parameter's factor before the test.
-    pub(super) spreads: Vec<f64>,
+    pub spreads: Vec<f64>,
 }
 
 impl Frequencies {
@@ -33,10 +40,10 @@ impl Frequencies {
     pub(super) fn costs(&self, modes: &Modes, parts: &DMatrix<f64>) -> DMatrix<f64> {
         let (hertz, spreads) = (modes.frequencies_hz(), &self.spreads);
         let moved = |mode: usize| {
-            let parts = parts.row(mode).into_owned();
-            let both = parts.iter().zip(spreads);
-            let squares = both.map(|(part, spread)| (0.5 * spread * part).powi(2));
-            squares.sum::<f64>()
+            let both = parts.row(mode).into_owned();
+            let both = both.iter().zip(spreads);
+            both.map(|(part, spread)| (0.5 * spread * part).powi(2))
+                .sum::<f64>()
         };
         DMatrix::from_fn(hertz.len(), self.test.len(), |mode, place| {
             let [own, noise] = self.test[place];
@@ -54,7 +61,7 @@ impl Frequencies {
 /// at d sensors, for a mode of visibility $\nu$ ([`visibilities`]), and what its frequency costs, where that counts
 /// ([`Frequencies::costs`]). That of the shape is Student's with the deviation $s$ of 0.1. What sensors see of a mode that they hardly see
 /// may be anything, and looks like any test mode.
-pub(super) fn costs(
+pub fn costs(
     assurance: &DMatrix<f64>,
     readings: &DMatrix<f64>,
     by_frequency: Option<&DMatrix<f64>>,
@@ -67,8 +74,9 @@ pub(super) fn costs(
     // One sensor tells no shapes apart.
     let likeness = (free * UNLIKE * UNLIKE).max(f64::MIN_POSITIVE);
     assurance.map_with_location(|mode, test, close| {
-        let by_shape = 0.5 * free * (1.0 + (1.0 - close).max(0.0) / likeness).ln();
-        by_shape + prices[mode] + by_frequency.map_or(0.0, |costs| costs[(mode, test)])
+        (0.5 * free * (1.0 + (1.0 - close).max(0.0) / likeness).ln())
+            + prices[mode]
+            + by_frequency.map_or(0.0, |costs| costs[(mode, test)])
     })
 }
 
@@ -80,7 +88,7 @@ pub(super) fn costs(
 ///
 /// # Errors
 /// Errors of [`pair_optimally`].
-pub(super) fn pairs(
+pub fn pairs(
     assurance: &DMatrix<f64>,
     readings: &DMatrix<f64>,
     by_frequency: Option<&DMatrix<f64>>,
@@ -110,7 +118,7 @@ fn rounded(numbers: &DMatrix<f64>, digits: f64) -> DMatrix<f64> {
 
 /// Squared assurance, rounded to the digits that shapes decide, so that ties are exact. A tie goes by the order of the modes, which ascend
 /// in frequency.
-pub(super) fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn decided(closeness: &DMatrix<f64>) -> DMatrix<f64> {
     rounded(closeness, ASSURANCES)
 }
 
@@ -124,32 +132,46 @@ impl PreparedJob {
             let within = range.map(|range| (range.upper / range.lower).ln() / 12.0_f64.sqrt());
             prior.min(within.unwrap_or(PRIOR_DEVIATION))
         };
-        let both = source.priors.iter().zip(source.whole.ranges());
         Frequencies {
             test: tests.iter().map(own).collect(),
-            spreads: both.map(spread).collect(),
+            spreads: source
+                .priors
+                .iter()
+                .zip(source.whole.ranges())
+                .map(spread)
+                .collect(),
         }
     }
 
     /// Rule that gives every test mode that is compared a partner: the most likely, or in the paper's loops, which follow shapes from
     /// step to step, those of the largest sum of modal assurance, less $4 s^2 \ln(1/\nu)$ for modes that are hardly seen.
-    pub(super) fn pair(&self) -> Pair {
+    pub(super) fn pair(&self, method: Method) -> Pair {
         let frequencies = self.frequencies(&self.modes);
-        let is_likely = self.loaded.job.compare.method == Method::GaussNewton;
+        let is_likely = method == Method::GaussNewton;
         Pair::by(move |of| {
             let (squares, readings) = (of.cross.component_mul(of.cross), &of.modes.shapes);
             let partners = if is_likely {
-                let costs = of.parts.map(|parts| frequencies.costs(of.modes, &parts()));
-                pairs(&squares, readings, costs.as_ref(), 0.0)?
+                pairs(
+                    &squares,
+                    readings,
+                    of.parts
+                        .map(|parts| frequencies.costs(of.modes, &parts()))
+                        .as_ref(),
+                    0.0,
+                )?
             } else {
                 let price = |seen: &f64| 4.0 * UNLIKE * UNLIKE * seen.max(f64::EPSILON).ln();
                 let prices: Vec<f64> = visibilities(readings).iter().map(price).collect();
-                let costs = squares.map_with_location(|mode, _, close| -close - prices[mode]);
-                pair_cheaply(&decided(&costs))?.0
+                pair_cheaply(&decided(
+                    &squares.map_with_location(|mode, _, close| -close - prices[mode]),
+                ))?
+                .0
             };
             check_count("test modes", of.cross.ncols(), 0, of.cross.nrows())?;
-            let analysis_mode = partners.into_iter().flatten().collect();
-            Ok(Pairing::signed(analysis_mode, of.cross))
+            Ok(Pairing::signed(
+                partners.into_iter().flatten().collect(),
+                of.cross,
+            ))
         })
     }
 }

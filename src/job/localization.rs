@@ -1,14 +1,20 @@
 //! Which parameter is wrong: by the paper's unlimited factor, a slope that tells little about gross errors, and by single fits.
 
 use super::assignment::pair_cheaply;
-use crate::method::analysis::Analysis;
-use crate::method::error::Error;
-use crate::method::inner_loop::{InnerSettings, first_factors};
-use crate::method::modes::Modes;
-use crate::method::sorting::Pairing;
-use crate::sparse::{Deflections, ModeWeight};
-use crate::weighted::comparison::Comparison;
-use crate::weighted::residuals::{residuals, residuals_of};
+use crate::{
+    method::{
+        analysis::Analysis,
+        error::Error,
+        inner_loop::{InnerSettings, first_factors},
+        modes::Modes,
+        sorting::Pairing,
+    },
+    sparse::{Deflections, ModeWeight},
+    weighted::{
+        comparison::Comparison,
+        residuals::{residuals, residuals_of},
+    },
+};
 use nalgebra::DMatrix;
 use serde::Serialize;
 
@@ -33,8 +39,7 @@ pub struct Suspect {
 impl Suspect {
     /// True if the factor is where the search of [`by_single_fit`] ends: a larger or smaller one may explain more.
     pub fn is_at_edge(&self) -> bool {
-        let edge = SPACING * f64::from(PLACES);
-        self.factor.log10().abs() > edge - FINEST
+        self.factor.log10().abs() > (SPACING * f64::from(PLACES)) - FINEST
     }
 }
 
@@ -48,9 +53,13 @@ pub fn by_factor(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Ve
         factor,
         evidence: (factor - 1.0).abs(),
     };
-    let factors = first_factors(analysis, settings)?;
-    let suspects = factors.into_iter().enumerate().map(suspect);
-    Ok(ranked(suspects.collect()))
+    Ok(ranked(
+        first_factors(analysis, settings)?
+            .into_iter()
+            .enumerate()
+            .map(suspect)
+            .collect(),
+    ))
 }
 
 /// By how far each parameter alone can lower $\frac{1}{2} \sum r^2$ of the weighted residuals, the farthest first.
@@ -70,16 +79,18 @@ pub fn by_single_fit(
         let model = comparison.model.in_basis(Deflections::Own(parameter))?;
         // A factor that leaves no modes of vibration cannot fit.
         let objective = |log: f64| {
-            let there = model.followed(&[10.0_f64.powf(log)]);
-            let least = there.and_then(|(model, _)| least(&model.exact.modes, comparison, weights));
+            let least = model
+                .followed(&[10.0_f64.powf(log)])
+                .and_then(|(model, _)| least(&model.exact.modes, comparison, weights));
             least.unwrap_or(f64::INFINITY)
         };
         let better = |best: (f64, f64), log: f64| {
             let value = objective(log);
             if value < best.0 { (value, log) } else { best }
         };
-        let everywhere = (-PLACES..=PLACES).map(|place| SPACING * f64::from(place));
-        let mut best = everywhere.fold((first, 0.0), better);
+        let mut best = (-PLACES..=PLACES)
+            .map(|place| SPACING * f64::from(place))
+            .fold((first, 0.0), better);
         let mut step = SPACING;
         while step > FINEST {
             step /= 2.0;
@@ -114,11 +125,15 @@ pub fn unexplained(comparison: &Comparison, weights: &[ModeWeight]) -> Result<f6
 fn least(modes: &Modes, comparison: &Comparison, weights: &[ModeWeight]) -> Result<f64, Error> {
     let (rows, tests) = comparison.model.test.shapes.shape();
     let with = |partners| {
-        let pairing = Pairing {
-            analysis_mode: partners,
-            sign: vec![1.0; tests],
-        };
-        residuals_of(modes, &pairing, comparison, weights)
+        residuals_of(
+            modes,
+            &Pairing {
+                analysis_mode: partners,
+                sign: vec![1.0; tests],
+            },
+            comparison,
+            weights,
+        )
     };
     // What each mode leaves of every test mode (columns) that it answers.
     let mut costs = DMatrix::zeros(modes.len(), tests);

@@ -1,45 +1,38 @@
 //! A model given by matrices: its files, and the degree of freedom of every row.
 
-use super::bodies::explained;
-use super::model::{GridLayout, ModelSource, prior, range};
-use super::{Job, Scales};
-use crate::files::deck::number::{LARGEST, real};
-use crate::files::error::{FileError, ensure, is_not};
-use crate::files::matrices::{self, Digits, Label, LabeledMatrix};
-use crate::files::test_data::{self, cells, row_name, separator};
-use crate::files::text::decoded;
-use crate::method::error::Error;
-use crate::method::modes::Modes;
-use crate::method::structure::StructuralDof;
-use crate::sparse::visibility::open_parts;
-use crate::sparse::whole_modes::WholeModes;
-use crate::sparse::{
-    FINITE, Factor, HalfUnit, Places, SparseMatrix, Support, WholeModel, WholeParameter, WholeShare,
+use super::{
+    Job, ParameterRule, Scales,
+    bodies::{explained, with_as_many},
+    model::{GridLayout, Members, ModelSource, Part},
+};
+use crate::{
+    files::{
+        deck::number::{LARGEST, real},
+        error::{FileError, ensure, is_not},
+        matrices::{self, Digits, Label, LabeledMatrix},
+        test_data::{self, cells, row_name, separator},
+        text::decoded,
+    },
+    method::{modes::Modes, structure::StructuralDof},
+    sparse::{
+        Factor, Places, SparseMatrix, Support, WholeModel, WholeShare, visibility::open_parts,
+        whole_modes::WholeModes,
+    },
 };
 use nalgebra::{DMatrix, Vector3};
-use std::collections::BTreeMap;
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 /// The model of the matrices in these files.
-pub(super) fn from_matrices(
-    job: &Job,
-    stiffness: &Path,
-    mass: &Path,
-) -> Result<ModelSource, FileError> {
+pub fn from_matrices(job: &Job, stiffness: &Path, mass: &Path) -> Result<ModelSource, FileError> {
     let stiffness = matrix(job, stiffness, "model.stiffness", None)?;
-    let count = stiffness.matrix.rows();
-    let own: Option<Vec<_>> = stiffness
-        .rows
-        .as_ref()
-        .map(|labels| labels.iter().map(degree_of_freedom).collect());
-    let (labels, places, rounding) = match (&job.model.rows, &own) {
-        (Some(file), _) => read_rows(job, &job.beside(file))?,
-        (None, Some(labels)) => (labels.clone(), BTreeMap::new(), 0.0),
+    let (count, own) = (stiffness.matrix.rows(), stiffness.rows.as_ref());
+    let own: Option<Vec<_>> = own.map(|own| own.iter().map(degree_of_freedom).collect());
+    let (labels, places, rounding) = match &job.model.rows {
+        Some(file) => read_rows(job, &job.beside(file))?,
         // Frequencies alone need no names of rows.
-        (None, None) => (Vec::new(), BTreeMap::new(), 0.0),
+        None => (own.clone().unwrap_or_default(), BTreeMap::new(), 0.0),
     };
-    let is_named = !labels.is_empty() || job.model.rows.is_some();
-    let rows = labels.len();
+    let (rows, is_named) = (labels.len(), !labels.is_empty() || job.model.rows.is_some());
     ensure(!is_named || rows == count, || {
         job.refused(format!(
             "model.rows has {rows} rows, but the stiffness {count}"
@@ -50,7 +43,7 @@ pub(super) fn from_matrices(
     })?;
     let mut row_of = BTreeMap::new();
     for (row, label) in labels.iter().enumerate() {
-        let first = row_of.insert(*label, row).map_or(row, |first| first);
+        let first = row_of.insert(*label, row).unwrap_or(row);
         ensure(first == row, || {
             let (first, row) = (first + 1, row + 1);
             job.refused(format!(
@@ -58,88 +51,59 @@ pub(super) fn from_matrices(
             ))
         })?;
     }
-    let LabeledMatrix {
-        matrix: mass, dmig, ..
-    } = on_rows(job, (mass, "model.mass"), &row_of, count)?;
-    let label = |own: &StructuralDof| Label {
-        grid: own.grid,
-        component: own.direction + 1,
-    };
-    let by_rows = || labels.iter().map(label).collect();
-    let named = stiffness.rows.unwrap_or_else(by_rows);
-    let (mut parameters, mut priors) = (Vec::new(), Vec::new());
-    for rule in &job.parameters {
-        let name = &rule.name;
-        let named_of_deck =
-            rule.elements.len() + rule.properties.len() + rule.materials.len() + rule.masses.len();
-        let file = match (&rule.matrix, &rule.stiffness, &rule.mass, rule.at) {
-            _ if named_of_deck > 0 || rule.each => None,
-            (Some(file), None, None, None) => Some((file, rule.scales, None)),
-            (None, Some(file), None, Some(at)) => Some((file, Scales::Stiffness, Some(at))),
-            (None, None, Some(file), Some(at)) => Some((file, Scales::Mass, Some(at))),
-            _ => None,
-        };
-        let (file, scales, at) = file.ok_or_else(|| {
-            job.refused(format!(
-                "parameter \"{name}\" needs a matrix, or a whole stiffness or mass with the factor at that it has there, and no entry \
-                 of a deck"
-            ))
-        })?;
-        let entry = format!("parameter \"{name}\"");
-        let mut matrix = on_rows(job, (file, &entry), &row_of, count)?.matrix;
-        if let Some(at) = at {
-            let first = match scales {
-                Scales::Stiffness => &stiffness.matrix,
-                Scales::Mass => &mass,
-            };
-            matrix = part_of(job, name, (first, &matrix), at)?;
-        }
-        let share = match scales {
-            Scales::Stiffness => WholeShare::Stiffness(matrix),
-            Scales::Mass => WholeShare::Mass(matrix),
-        };
-        parameters.push(WholeParameter {
-            name: name.clone(),
-            share,
-            range: range(job, rule, &[])?,
-        });
-        priors.push(prior(job, rule)?);
-    }
+    let mass = on_rows(job, (mass, "model.mass"), &row_of, count)?;
+    let parts = matrix_parts(job, &row_of, count)?;
     let placed = |dof: &StructuralDof| Some((*places.get(&dof.grid)?, dof.direction));
     let placed: Option<Vec<_>> = labels.iter().map(placed).collect();
     let support = Support {
         places: placed
             .filter(|_| is_named)
             .map(|rows| Places::new(&rows, rounding)),
-        count: job.model.rigid_bodies,
-        resisting: None,
+        ..Support::default()
     };
-    let whole = WholeModel::supported(stiffness.matrix, mass, parameters, support)?;
-    let motions = labels
-        .into_iter()
-        .enumerate()
-        .map(|(row, at)| (at, vec![(row, 1.0)]))
-        .collect();
+    let label = |own: &StructuralDof| Label {
+        grid: own.grid,
+        component: own.direction + 1,
+    };
+    let by_rows = labels.iter().map(label).collect();
+    let rows = (0..).map(|row| vec![(row, 1.0)]);
     let geometry = GridLayout {
         places,
         elements: Vec::new(),
     };
-    let members = vec![Default::default(); whole.parameters().len()];
-    Ok(ModelSource {
-        all: whole.clone(),
-        labels: named,
-        dmig: [stiffness.dmig, dmig],
-        whole,
-        geometry,
-        motions,
-        members,
-        priors,
-        deck: None,
-        mass: Default::default(),
-        mass_center: None,
-        left_out: Vec::new(),
-        loose: Vec::new(),
-    })
+    let layout = (geometry, labels.into_iter().zip(rows).collect());
+    let whole = (stiffness.matrix, mass.matrix, support);
+    let mut source = ModelSource::new(job, whole, parts, layout, None)?;
+    source.labels = stiffness.rows.unwrap_or(by_rows);
+    source.dmig = [stiffness.dmig, mass.dmig];
+    Ok(source)
+}
+
+/// Parameters by the job's rules of a model whose labels have these rows.
+fn matrix_parts<'a>(
+    job: &'a Job,
+    row_of: &BTreeMap<StructuralDof, usize>,
+    count: usize,
+) -> Result<Vec<(&'a ParameterRule, Part)>, FileError> {
+    let part = |rule: &'a ParameterRule| {
+        let entry = format!("parameter \"{}\"", rule.name);
+        let of_deck =
+            rule.elements.len() + rule.properties.len() + rule.materials.len() + rule.masses.len();
+        let none = || job.refused(format!("{entry} needs a matrix, and no entry of a deck"));
+        let file = rule.matrix.as_ref().filter(|_| of_deck == 0 && !rule.each);
+        let matrix = on_rows(job, (file.ok_or_else(none)?, &entry), row_of, count)?.matrix;
+        let part = Part {
+            name: rule.name.clone(),
+            share: match rule.scales {
+                Scales::Stiffness => WholeShare::Stiffness(matrix),
+                Scales::Mass => WholeShare::Mass(matrix),
+            },
+            members: Members::default(),
+            sizes: Vec::new(),
+        };
+        Ok((rule, part))
+    };
+    job.parameters.iter().map(part).collect()
 }
 
 /// The `most` lowest vibrations of a structure given by its stiffness and mass, or all of finite frequency; `#` in a file's name
@@ -161,23 +125,11 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
     let row_of = (0..).zip(&dof).map(|(row, dof)| (*dof, row)).collect();
     let mass = on_rows(&job, (mass, "--mass"), &row_of, stiffness.rows())?.matrix;
     let most = most.min(stiffness.rows());
-    let rows_with_mass = motions_with_mass(&mass);
     let name = |row: usize| row_name(row, &dof);
     let whole = WholeModel::new(stiffness, mass, Vec::new())?;
-    let found = match whole.modes(&[], most) {
-        Err(Error::Count {
-            what: FINITE,
-            most: available,
-            ..
-        }) if available > 0 => whole.modes(&[], available)?,
-        Err(error) => {
-            return Err(match explained(&error, whole.half_unit(), name) {
-                Some(reason) => FileError::refused(file.display(), reason),
-                None => error.into(),
-            });
-        }
-        Ok(found) => found,
-    };
+    let found = with_as_many(most, |most| whole.modes(&[], most));
+    let (_, found) =
+        found.map_err(|error| explained(error, file.display(), whole.half_unit(), name))?;
     let Modes {
         omega_squared,
         shapes,
@@ -186,11 +138,14 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
     let (stiffness, mass) = whole.at(&[])?;
     let open = open_parts([&stiffness, &mass], &modes)?;
     let lowest = modes.frequencies_hz().first().copied();
-    let doubtful = whole.body_findings(name)?.into_iter();
     let rigid_body = found.rigid_body.ncols();
     Ok(WholeModes {
-        doubtful: doubtful.map(|finding| finding.beside(lowest)).collect(),
-        counted: rows_with_mass.map(|rows| rows - rigid_body),
+        doubtful: whole
+            .body_findings(name)?
+            .into_iter()
+            .map(|finding| finding.beside(lowest))
+            .collect(),
+        counted: motions_with_mass(&mass).map(|rows| rows - rigid_body),
         dof,
         modes,
         at_rows: DMatrix::zeros(0, 0),
@@ -213,43 +168,6 @@ fn motions_with_mass(mass: &SparseMatrix) -> Option<usize> {
         .ok()?;
     let is_definite = Factor::new("mass", &own).is_ok_and(|own| own.negative_count() == 0);
     is_definite.then_some(rows.len())
-}
-
-/// The part of a parameter in the first matrix, $K_e = (K_2 - K)/(c - 1)$, of a second one with its factor at $c$. What the digits of both
-/// do not tell from zero is none.
-fn part_of(
-    job: &Job,
-    name: &str,
-    (first, second): (&SparseMatrix, &SparseMatrix),
-    at: f64,
-) -> Result<SparseMatrix, FileError> {
-    ensure(at != 1.0 && at > 0.0 && at.is_finite(), || {
-        job.refused(format!(
-            "parameter \"{name}\": at = {at} must be positive and another factor than one"
-        ))
-    })?;
-    let mut both: BTreeMap<(usize, usize), [f64; 2]> = BTreeMap::new();
-    for (of, matrix) in [first, second].into_iter().enumerate() {
-        let entries = matrix.entries();
-        entries.for_each(|(row, column, value)| both.entry((row, column)).or_default()[of] = value);
-    }
-    let halves = [first.half_unit(), second.half_unit()];
-    let mut largest = 0.0_f64;
-    let of_place = |(&(row, column), &[one, two]): (&(usize, usize), &[f64; 2])| {
-        let (change, rounded) = ((two - one).abs(), halves[0].of(one) + halves[1].of(two));
-        let is_told = change > rounded;
-        largest = largest.max(if is_told { rounded / change } else { 0.0 });
-        is_told.then_some((row, column, (two - one) / (at - 1.0)))
-    };
-    let entries: Vec<_> = both.iter().filter_map(of_place).collect();
-    ensure(!entries.is_empty(), || {
-        job.refused(format!(
-            "parameter \"{name}\": the digits of the files do not tell the matrix at {at} from the model's; write more digits, or take \
-             another factor"
-        ))
-    })?;
-    let part = SparseMatrix::new("part of a parameter", first.rows(), first.rows(), entries)?;
-    Ok(part.with_half_unit(HalfUnit::of_each(largest)))
 }
 
 /// The degree of freedom of a label: component 0 of a scalar point is its first.
@@ -290,9 +208,11 @@ fn matrix(
                 .any(|word| real(word).is_some_and(is_huge))
         };
         let line = decoded(&bytes).lines().position(has_huge).unwrap_or(0) + 1;
-        let reason =
-            format!("a number is beyond {LARGEST:e}, and its square is none; look at its exponent");
-        return Err(FileError::line(&file.display().to_string(), line, reason));
+        return Err(FileError::line(
+            &file.display().to_string(),
+            line,
+            format!("a number is beyond {LARGEST:e}, and its square is none; look at its exponent"),
+        ));
     }
     ensure(found.columns == found.rows, || {
         job.refused(format!("{text}: rows and columns have different names"))
@@ -305,17 +225,14 @@ fn matrix(
         ))
     })?;
     // Labels ascend, so that two of one degree of freedom are neighbors.
-    let labels = found.rows.as_deref().unwrap_or_default();
-    for pair in labels.windows(2) {
-        ensure(
-            degree_of_freedom(&pair[0]) != degree_of_freedom(&pair[1]),
-            || {
-                job.refused(format!(
-                "{text}: components 0 and 1 of grid {} are one degree of freedom, and the matrix has both",
-                pair[0].grid
+    for pair in found.rows.as_deref().unwrap_or_default().windows(2) {
+        let [one, other] = [0, 1].map(|own| degree_of_freedom(&pair[own]));
+        ensure(one != other, || {
+            let grid = one.grid;
+            job.refused(format!(
+                "{text}: components 0 and 1 of grid {grid} are one degree of freedom, and the matrix has both"
             ))
-            },
-        )?;
+        })?;
     }
     Ok(found)
 }
@@ -360,30 +277,34 @@ type Rows = (Vec<StructuralDof>, BTreeMap<usize, Vector3<f64>>, f64);
 
 /// Reads a table `grid,direction,x,y,z`.
 fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {
-    let text = decoded(&job.bytes(file, "model.rows")?).into_owned();
-    let lines = (1..)
-        .zip(text.lines())
-        .filter(|(_, line)| !line.trim().is_empty() && !line.starts_with('#'));
+    let (name, bytes) = (file.display().to_string(), job.bytes(file, "model.rows")?);
     let (mut labels, mut places, mut digits) = (Vec::new(), BTreeMap::new(), Digits::default());
-    for (number, line) in lines {
+    for (number, line) in (1..).zip(decoded(&bytes).lines()) {
         let cells = cells(line, separator(line));
-        let titles = cells.join(",").to_lowercase();
-        if labels.is_empty() && ["grid,direction", "grid,direction,x,y,z"].contains(&&*titles) {
+        let is_title = labels.is_empty()
+            && ["grid,direction", "grid,direction,x,y,z"]
+                .contains(&&*cells.join(",").to_lowercase());
+        if is_title || line.trim().is_empty() || line.starts_with('#') {
             continue;
         }
         let what = "a line of grid, direction and perhaps x, y, z";
-        let wrong = || FileError::line(&file.display().to_string(), number, is_not(line, what));
-        let (label, place) = row(&cells).ok_or_else(wrong)?;
+        let wrong = |reason| FileError::line(&name, number, reason);
+        let (label, place) = row(&cells).ok_or_else(|| wrong(is_not(line, what)))?;
         labels.push(label);
         cells.iter().skip(2).for_each(|number| digits.add(number));
         if place.is_some_and(|place| *places.entry(label.grid).or_insert(place) != place) {
-            let reason = format!("grid {} was given at another place before", label.grid);
-            return Err(FileError::line(&file.display().to_string(), number, reason));
+            return Err(wrong(format!(
+                "grid {} was given at another place before",
+                label.grid
+            )));
         }
     }
     let farthest = places.values().map(Vector3::amax).fold(0.0, f64::max);
-    let rounding = digits.half_unit().of(farthest) / farthest.max(f64::MIN_POSITIVE);
-    Ok((labels, places, rounding))
+    Ok((
+        labels,
+        places,
+        digits.half_unit().of(farthest) / farthest.max(f64::MIN_POSITIVE),
+    ))
 }
 
 /// Grid and direction of a row, and its place if it has one.

@@ -11,6 +11,7 @@ pub(crate) mod concerns;
 mod entries;
 #[doc(hidden)]
 pub mod expansion;
+mod inputs;
 mod likelihood;
 #[doc(hidden)]
 pub mod localization;
@@ -24,17 +25,17 @@ pub mod preflight;
 mod repeats;
 mod sensors;
 // The four values of a job, in their order, and what is said of them.
+pub mod concern;
+mod correlated;
+mod judged;
 mod loaded;
 mod prepared;
 mod reach;
-mod correlated;
-mod judged;
-pub mod concern;
 pub mod verdict;
 
-pub use concern::{Check, Concern, Trust};
 #[doc(hidden)]
-pub use concerns::of_bodies;
+pub use bodies::of_bodies;
+pub use concern::{Check, Concern, Trust};
 pub use correlated::{CorrelatedJob, History};
 pub use judged::{HeldOut, JobResult, run};
 pub use loaded::LoadedJob;
@@ -42,19 +43,26 @@ pub use loaded::LoadedJob;
 pub use matrices::matrix_modes;
 pub use model::{GridLayout, Members, ModelSource};
 pub use next_measurement::{NextMeasurement, mean_deviation};
-pub use prepared::{LeftOut, PreparedJob};
+pub use prepared::PreparedJob;
+pub use reach::LeftOut;
 pub use sensors::PlacedSensor;
 
-use crate::files::disk::file_of;
-use crate::files::error::{FileError, ensure, is_not};
-use crate::files::read_bytes;
-use crate::files::text::decoded;
-use crate::method::outer_loop::Settings;
-use entries::{CorrelationEntries, entry_of};
+use crate::{
+    files::{
+        disk::file_of,
+        error::{FileError, ensure, is_not},
+        read_bytes,
+        text::decoded,
+    },
+    method::outer_loop::Settings,
+};
+use entries::CorrelationEntries;
 use serde::Deserialize;
-use std::collections::BTreeSet;
-use std::fmt::Display;
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeSet,
+    fmt::Display,
+    path::{Path, PathBuf},
+};
 
 /// A job that explains its entries.
 pub const TEMPLATE: &str = include_str!("template.toml");
@@ -71,9 +79,6 @@ pub struct Job {
     /// Text of the job's file.
     #[serde(skip)]
     pub text: String,
-    /// The entries that it gives.
-    #[serde(skip)]
-    given: toml::Table,
     /// Name of the structure in reports; the file's name if not given.
     pub title: Option<String>,
     model: ModelFiles,
@@ -150,11 +155,6 @@ struct ParameterRule {
     #[serde(default)]
     masses: Vec<Labels>,
     matrix: Option<PathBuf>,
-    /// The whole model's stiffness or mass with the parameter at another factor.
-    stiffness: Option<PathBuf>,
-    mass: Option<PathBuf>,
-    /// That factor.
-    at: Option<f64>,
     #[serde(default)]
     scales: Scales,
     #[serde(default)]
@@ -230,7 +230,7 @@ pub const FILES: [&str; 11] = [
 ];
 
 /// Refuses a report and a folder of [`FILES`] over what a run reads: files that are named, or those of a job. One that cannot be read is
-/// refused where it is needed.
+/// refused where it is needed. A file of two names keeps the other one when it is replaced.
 ///
 /// # Errors
 /// [`FileError::Refused`] naming the file.
@@ -239,27 +239,24 @@ pub fn spare(
     named: [Option<&PathBuf>; 4],
     [file, folder]: [Option<&PathBuf>; 2],
 ) -> Result<(), FileError> {
-    #[cfg(unix)]
-    let identity = |path: &Path| {
-        use std::os::unix::fs::MetadataExt;
-        path.metadata().map(|found| (found.dev(), found.ino()))
-    };
-    #[cfg(not(unix))]
-    let identity = Path::canonicalize;
     let job = job.and_then(|job| read(job).ok());
     let named = named.into_iter().flatten().cloned();
     let inputs = named.chain(job.iter().flat_map(Job::inputs));
-    let read: Vec<_> = inputs.flat_map(|own| identity(file_of(&own))).collect();
-    let outputs = folder
+    let read: Vec<_> = inputs
+        .flat_map(|own| file_of(&own).canonicalize())
+        .collect();
+    let results = folder
         .into_iter()
         .flat_map(|own| FILES.map(|name| own.join(name)));
-    let lost = outputs
-        .chain(file.cloned())
-        .find(|own| identity(own).is_ok_and(|own| read.contains(&own)));
-    lost.map_or(Ok(()), |path| {
-        let reason = "this run reads it and would overwrite it; name another folder or file";
-        Err(FileError::refused(path.display(), reason))
-    })
+    for path in results.chain(file.cloned()) {
+        if path.canonicalize().is_ok_and(|own| read.contains(&own)) {
+            return Err(FileError::refused(
+                path.display(),
+                "this run reads it and would overwrite it; name another folder or file",
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Reads a job file.
@@ -268,24 +265,21 @@ pub fn spare(
 /// [`FileError::File`] when it cannot be read; [`FileError::Refused`] for an entry that jobs no longer have, and
 /// naming line and entry that are not understood.
 pub fn read(path: &Path) -> Result<Job, FileError> {
-    let bytes = read_bytes(path).map_err(FileError::of_file(path, "read"))?;
-    let text = decoded(&bytes);
-    // Text that is not TOML is refused below, by its line.
-    let given = toml::from_str(&text).unwrap_or_default();
-    let job = toml::from_str(&text).map(|job| Job {
-        path: path.to_owned(),
-        text: text.clone().into_owned(),
-        given,
-        ..job
-    });
-    job.map_err(|error| {
-        let reason = error.to_string();
-        let reason = reason.trim_end();
-        FileError::refused(
+    let text = decoded(&read_bytes(path).map_err(FileError::of_file(path, "read"))?).into_owned();
+    match toml::from_str(&text) {
+        Ok(job) => Ok(Job {
+            path: path.to_owned(),
+            text,
+            ..job
+        }),
+        Err(error) => Err(FileError::refused(
             path.display(),
-            format!("{reason}\n(corfem init explains every entry)"),
-        )
-    })
+            format!(
+                "{}\n(corfem init explains every entry)",
+                error.to_string().trim_end()
+            ),
+        )),
+    }
 }
 
 impl Job {
@@ -298,27 +292,23 @@ impl Job {
 
     /// The files it names: those of the model, then the test's.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        let model = [
+        let named = [
             &self.model.deck,
             &self.model.stiffness,
             &self.model.mass,
             &self.model.rows,
-        ];
-        let rules = self.parameters.iter();
-        let matrices = rules.flat_map(|rule| [&rule.matrix, &rule.stiffness, &rule.mass]);
-        let named = model.into_iter().chain(matrices).flatten();
+        ]
+        .into_iter()
+        .chain(self.parameters.iter().map(|rule| &rule.matrix))
+        .flatten();
         named.chain(&self.test.file).chain(&self.test.repeats)
     }
 
     /// Paths of all that it reads, its own last.
     pub fn inputs(&self) -> impl Iterator<Item = PathBuf> {
-        let named = self.files().map(|file| self.beside(file));
-        named.chain([self.path.clone()])
-    }
-
-    /// True if the job's file has this entry, such as `compare.seed`.
-    fn gives(&self, entry: &str) -> bool {
-        entry_of(&self.given, entry).is_some()
+        self.files()
+            .map(|file| self.beside(file))
+            .chain([self.path.clone()])
     }
 
     /// True if the job selects the test mode of this number.
@@ -367,17 +357,17 @@ impl Job {
 
     /// The numbers that a list names.
     fn labels(&self, list: &[Labels]) -> Result<BTreeSet<usize>, FileError> {
-        let mut all = Vec::new();
+        let mut all = BTreeSet::new();
         for labels in list {
-            let room = MOST_LABELS.saturating_sub(all.len());
             let (first, last) = match labels {
                 Labels::One(label) => (*label, *label),
                 Labels::Range(text) => {
+                    let room = MOST_LABELS.saturating_sub(all.len());
                     let number = |text: &str| text.trim().parse::<usize>().ok();
                     let ends = text
                         .split_once('-')
-                        .and_then(|(first, last)| number(first).zip(number(last)));
-                    let ends = ends.filter(|(first, last)| first <= last && last - first < room);
+                        .and_then(|(first, last)| number(first).zip(number(last)))
+                        .filter(|(first, last)| first <= last && last - first < room);
                     let what = "a range of numbers such as \"10-19\"; all of them together may be";
                     let reason = || format!("{} at most {MOST_LABELS}", is_not(text, what));
                     ends.ok_or_else(|| self.refused(reason()))?
@@ -385,6 +375,6 @@ impl Job {
             };
             all.extend(first..=last);
         }
-        Ok(all.into_iter().collect())
+        Ok(all)
     }
 }

@@ -1,13 +1,12 @@
 //! The next measurement: the deviations of the factors with one sensor more or less.
 
 use super::{Method, PlacedSensor, PreparedJob};
-use crate::files::error::FileError;
-use crate::files::test_data::DIRECTIONS;
-use crate::method::error::Error;
-use crate::method::structure::StructuralDof;
-use crate::sparse::SparseMatrix;
-use crate::weighted::comparison::Comparison;
-use crate::weighted::measurements::deviations;
+use crate::{
+    files::{error::FileError, test_data::DIRECTIONS},
+    method::{error::Error, structure::StructuralDof},
+    sparse::SparseMatrix,
+    weighted::{comparison::Comparison, measurements::deviations},
+};
 use nalgebra::DMatrix;
 use std::sync::Arc;
 
@@ -29,8 +28,7 @@ pub struct NextMeasurement {
 
 /// Root of the mean square of deviations.
 pub fn mean_deviation(deviations: &[f64]) -> f64 {
-    let squares = deviations.iter().map(|own| own * own).sum::<f64>();
-    (squares / deviations.len() as f64).sqrt()
+    ((deviations.iter().map(|own| own * own).sum::<f64>()) / deviations.len() as f64).sqrt()
 }
 
 /// Changes of one kind with the deviations after each, the best first.
@@ -59,22 +57,25 @@ impl PreparedJob {
         let (priors, mut unranked) = (&loaded.source.priors, Vec::new());
         let is_unpaired = self.modes.is_empty() || self.is_without_pairs();
         if priors.is_empty() || is_unpaired {
-            let why = "Nothing is ranked without parameters and compared shapes.";
             return Ok(NextMeasurement {
-                unranked: vec![why.to_owned()],
+                unranked: vec![
+                    "Nothing is ranked without parameters and compared shapes.".to_owned(),
+                ],
                 changes: Default::default(),
             });
         }
-        let mut weighted = self.clone();
-        Arc::make_mut(&mut weighted.loaded).job.compare.method = Method::GaussNewton;
-        let at_hand = weighted.analyze(&loaded.ones())?;
-        let weights = weighted.weights();
+        let at_hand = match loaded.job.compare.method {
+            Method::GaussNewton => self.first_comparison(),
+            Method::Paper => self.beside(Arc::clone(&self.first), Method::GaussNewton),
+        }?;
+        let weights = self.weights();
         let by = |own: &Comparison| deviations(own, &weights, priors);
         let compared = at_hand.model.compared();
-        let modes = at_hand.model.exact.modes.len();
-        let beyond = self
-            .first
-            .slopes_beyond(&loaded.sensors, modes, &compared)?;
+        let beyond = self.first.slopes_beyond(
+            &loaded.sensors,
+            at_hand.model.exact.modes.len(),
+            &compared,
+        )?;
         let mut comparison = at_hand.clone();
         for (&mode, own) in compared.iter().zip(beyond) {
             comparison.model.beyond[mode] = Some(own);
@@ -89,14 +90,22 @@ impl PreparedJob {
         };
         let all: Vec<usize> = (0..placed.len()).filter(|&row| !is_needed(row)).collect();
         let alone = placed.len() - all.len();
-        let of_alone = || format!("Not ranked: {alone} sensors that see a test mode alone.");
-        unranked.extend((alone > 0 && placed.len() > 1).then(of_alone));
-        let each = self.some(all, "sensors", &mut unranked).into_iter();
-        let less = ranked(each.map(|row| {
-            let rest: Vec<usize> = (0..placed.len()).filter(|other| *other != row).collect();
-            let words = format!("without {}", placed[row].name);
-            Ok((words, by(&comparison.at_sensors(&rest))?))
-        }))?;
+        unranked.extend(
+            (alone > 0 && placed.len() > 1)
+                .then(|| format!("Not ranked: {alone} sensors that see a test mode alone.")),
+        );
+        let less = ranked(
+            self.some(all, "sensors", &mut unranked)
+                .into_iter()
+                .map(|row| {
+                    let rest: Vec<usize> =
+                        (0..placed.len()).filter(|other| *other != row).collect();
+                    Ok((
+                        format!("without {}", placed[row].name),
+                        by(&comparison.at_sensors(&rest))?,
+                    ))
+                }),
+        )?;
         let now = vec![("as it is".to_owned(), by(&comparison)?)];
         let changes = [now, more, less];
         Ok(NextMeasurement { changes, unranked })
@@ -106,10 +115,16 @@ impl PreparedJob {
     /// many-th.
     fn some<T>(&self, all: Vec<T>, what: &str, unranked: &mut Vec<String>) -> Vec<T> {
         let (count, rows) = (self.loaded.source.priors.len(), self.test.shapes.len());
-        let most = MOST_WORK / (count * (rows * (self.analysis_modes + count) + count * count));
-        let step = all.len().div_ceil(most.max(1)).max(1);
-        let of_all = || format!("Of {} {what} one in {step} was looked at.", all.len());
-        unranked.extend((step > 1).then(of_all));
+        let step = all
+            .len()
+            .div_ceil(
+                (MOST_WORK / (count * (rows * (self.analysis_modes + count) + count * count)))
+                    .max(1),
+            )
+            .max(1);
+        unranked.extend(
+            (step > 1).then(|| format!("Of {} {what} one in {step} was looked at.", all.len())),
+        );
         all.into_iter().step_by(step).collect()
     }
 
@@ -121,9 +136,14 @@ impl PreparedJob {
             let at = |own: &PlacedSensor| (own.grid, own.direction) == (dof.grid, dof.direction);
             kinds.any(|kind| kind == dof.direction / 3) && !placed.iter().any(at)
         };
-        let motions = self.loaded.source.motions.iter();
-        let moving = motions.filter(|(_, motion)| !motion.is_empty());
-        moving.map(|(dof, _)| *dof).filter(is_new).collect()
+        self.loaded
+            .source
+            .motions
+            .iter()
+            .filter(|(_, motion)| !motion.is_empty())
+            .map(|(dof, _)| *dof)
+            .filter(is_new)
+            .collect()
     }
 
     fn more_sensors(
@@ -143,24 +163,31 @@ impl PreparedJob {
                     .iter()
                     .map(move |own| (row, own.0, own.1))
             };
-            let entries = places.iter().enumerate().flat_map(of).collect();
-            let size = source.whole.dof_count();
-            let sensors = SparseMatrix::new("sensors", places.len(), size, entries)?;
+            let sensors = SparseMatrix::new(
+                "sensors",
+                places.len(),
+                source.whole.dof_count(),
+                places.iter().enumerate().flat_map(of).collect(),
+            )?;
             let [basis, unseen] = self.first.read_by(&sensors, count)?;
             let beyond = self.first.slopes_beyond(&sensors, count, modes)?;
             let is_seen = |row: &usize| unseen.row(*row).amax() <= NOTHING * basis.amax();
             ranked((0..places.len()).filter(is_seen).map(|row| {
                 let of_row = |all: &DMatrix<f64>| all.rows(row, 1).into_owned();
-                let with =
-                    comparison.with_sensor(of_row(&basis), beyond.iter().map(of_row).collect());
-                Ok((places[row], by(&with)?))
+                Ok((
+                    places[row],
+                    by(&comparison
+                        .with_sensor(of_row(&basis), beyond.iter().map(of_row).collect()))?,
+                ))
             }))
         };
         let mut places = self.some(self.places(), "places", unranked);
         let best = look(&places, at_hand, &[])?;
         let apart = places.len() - best.len();
-        let of_apart = || format!("Not ranked: {apart} places with modes that no sensor sees now.");
-        unranked.extend((apart > 0).then(of_apart));
+        unranked
+            .extend((apart > 0).then(|| {
+                format!("Not ranked: {apart} places with modes that no sensor sees now.")
+            }));
         places = best
             .into_iter()
             .map(|own| own.0)

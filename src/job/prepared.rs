@@ -1,61 +1,31 @@
 //! A job with the first model's modes and the test modes' partners among them: its second value, from which a correlation starts.
 
-use super::bodies::explained;
-use super::concern::{Check, Concern, Grade};
-use super::expansion::mass_by_modes;
-use super::likelihood::{decided, pairs};
-use super::{LoadedJob, Method};
-use crate::files::error::{FileError, ensure};
-use crate::method::error::Error;
-use crate::method::modes::Modes;
-use crate::sparse::{BasisSize, Deflections, FINITE, ModeWeight, Place, SensorModel};
-use crate::weighted::close_modes::{assurance_of_roots, indistinct_groups};
-use crate::weighted::comparison::{Comparison, LoneFrequency};
-use crate::weighted::gauss_newton::WeightedSettings;
-use nalgebra::DMatrix;
+use super::{
+    LoadedJob, Method,
+    bodies::{explained, with_as_many},
+    expansion::mass_by_modes,
+    likelihood::{FLOOR, decided, pairs},
+    loaded::ascend,
+    reach::{LeftOut, TAKEN, UNLIKE},
+};
+use crate::{
+    files::error::{FileError, ensure},
+    method::{error::Error, modes::Modes},
+    sparse::{Deflections, ModeWeight, Place, SensorModel, parts_of},
+    weighted::{
+        close_modes::{assurance_of_roots, indistinct_groups},
+        comparison::{Comparison, LoneFrequency},
+        gauss_newton::WeightedSettings,
+    },
+};
+use nalgebra::{DMatrix, DVectorView};
 use std::sync::Arc;
 
-/// Modal assurance below which a test mode counts as without a partner.
-pub(super) const FLOOR: f64 = 0.5;
-
-/// Residual vectors a parameter, unless the job says how many: more add less than the lowest mode left out.
+/// Residual vectors a parameter: more add less than the lowest mode left out.
 const RESIDUAL_VECTORS: usize = 4;
 
 /// Deviation of a frequency, relative, by which roots that no solver tells apart are equal: two in a hundred million of a root.
 const EQUAL: f64 = 3e-9;
-
-/// A test mode that is not compared, and why.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LeftOut {
-    /// Its place in the test's file, from zero.
-    pub mode: usize,
-    /// Its largest modal assurance with any mode of the model.
-    pub assurance: f64,
-    /// The reason.
-    pub why: &'static str,
-}
-
-/// Reasons for which a test mode is not compared.
-const UNLIKE: &str = "it resembles no mode of the model";
-const TAKEN: &str = "the mode of the model that it resembles belongs to another test mode";
-const HARM: &str = "compared it makes the others worse";
-const OUT_OF_REACH: &str = "no mode of the model that it resembles can have its frequency within the bounds and priors of the parameters";
-
-impl LeftOut {
-    /// The concern that says so: a remark before the steps.
-    pub(super) fn concern(&self, grade: Grade) -> Concern {
-        let Self {
-            mode,
-            assurance,
-            why,
-        } = self;
-        let mode = mode + 1;
-        let words = format!(
-            "Test mode {mode} is not compared: {why} (modal assurance {assurance:.2} at most)."
-        );
-        Concern::new(grade, Check::Pairs, "not-compared-", &[mode], words)
-    }
-}
 
 /// A job with its first analysis, and its test modes with their partners in it.
 #[derive(Debug, Clone)]
@@ -75,15 +45,15 @@ pub struct PreparedJob {
     /// Test modes, from zero, that several modes of the first model resemble equally, and which are paired in the order of frequencies.
     pub undecided: Vec<usize>,
     /// Groups of the compared test modes with shapes, by place, that the test or the first model does not tell apart.
-    together: Vec<Vec<usize>>,
+    pub together: Vec<Vec<usize>>,
     /// Number of modes of the model that are taken.
     pub analysis_modes: usize,
     /// The first analysis, with as many modes as the pre-flight looks at.
     pub(super) first: Arc<Place>,
+    /// The first comparison; none where the model has fewer modes than the test.
+    pub comparison: Option<Comparison>,
     /// Frequencies of the first model, Hz, with the part of each that the digits of its matrices leave open.
     open: Vec<[f64; 2]>,
-    /// Shapes of the partners of frequencies alone, as the sensors see them.
-    partner_shapes: DMatrix<f64>,
 }
 
 impl PreparedJob {
@@ -97,7 +67,7 @@ impl PreparedJob {
                     "compare.starts is {starts}, but method \"paper\" has one start"
                 ))
             })?;
-            if let Some((mode, _)) = loaded.alone().first() {
+            if let Some((mode, _)) = loaded.alone.first() {
                 return Err(job.refused(format!(
                     "test mode {} has a frequency alone, and compare.method \"paper\" compares shapes; \"gauss_newton\" needs none",
                     mode + 1
@@ -105,11 +75,8 @@ impl PreparedJob {
             }
         }
         let (analysis_modes, first) = first_analysis(&loaded)?;
-        let exact = first.modes(analysis_modes)?;
-        let partners = loaded.alone().iter().map(|(_, lone)| lone.partner);
-        let partners: Vec<usize> = partners.filter(|mode| *mode < exact.len()).collect();
         let modes = loaded.shaped();
-        let prepared = Self {
+        let mut prepared = Self {
             test: loaded.measured(&modes)?,
             modes,
             unpaired: Vec::new(),
@@ -119,139 +86,116 @@ impl PreparedJob {
             together: Vec::new(),
             analysis_modes,
             open: first.open_frequencies()?,
-            first,
-            partner_shapes: exact.shapes.select_columns(&partners),
+            comparison: None,
             loaded: Arc::new(loaded),
+            first,
         };
-        match prepared.analyze(&prepared.loaded.ones()) {
-            // Even with more test modes than the model has modes, the pairs can be judged.
-            Err(Error::Count {
-                what: "test modes", ..
-            }) => prepared.paired_with(&exact, None),
-            Ok(model) => {
-                let frequencies = prepared.frequencies(&prepared.modes);
-                let costs = frequencies.costs(&exact, &model.model.parts());
-                prepared.paired_with(&exact, Some(&costs))
-            }
-            Err(other) => Err(other.into()),
-        }
+        prepared.leave_out()?;
+        prepared.compare()
     }
 
-    /// The same job without the test modes that resemble no mode of the first model; `by_frequency` is what frequencies cost pairs, where
-    /// the model has enough modes for all.
-    fn paired_with(
-        mut self,
-        exact: &Modes,
-        by_frequency: Option<&DMatrix<f64>>,
-    ) -> Result<Self, FileError> {
+    /// Leaves out the test modes that resemble no mode of the first model, unless none does: then the pre-flight names the mistake.
+    fn leave_out(&mut self) -> Result<(), FileError> {
+        let exact = &self.first.modes(self.analysis_modes)?;
         let assurance = decided(&assurance_of_roots(exact, &self.test.shapes)?);
-        let is_tied = |mode: &usize| {
-            let column = assurance.column(*mode);
+        let is_tied = |place: &usize| {
+            let column = assurance.column(*place);
             let most = column.max();
             column.iter().filter(|close| **close == most).count() > 1
         };
-        let tied = (0..assurance.ncols()).filter(is_tied);
-        self.undecided = tied.map(|mode| self.modes[mode]).collect();
-        let partners = pairs(&assurance, &exact.shapes, by_frequency, FLOOR)?;
-        let (kept, left): (Vec<usize>, Vec<usize>) =
-            (0..partners.len()).partition(|&mode| partners[mode].is_some());
-        let left_out = |mode: usize| {
-            let assurance = assurance.column(mode).max();
-            let why = match assurance < FLOOR {
-                true => UNLIKE,
-                false => TAKEN,
-            };
-            let mode = self.modes[mode];
+        let parts = parts_of(&self.first.shares(exact.len()), exact);
+        let costs = self.frequencies(&self.modes).costs(exact, &parts);
+        let partners = pairs(&assurance, &exact.shapes, Some(&costs), FLOOR)?;
+        let all = || 0..partners.len();
+        self.undecided = all()
+            .filter(is_tied)
+            .map(|place| self.modes[place])
+            .collect();
+        let (kept, left): (Vec<_>, Vec<_>) = all().partition(|&place| partners[place].is_some());
+        let left_out = |place: usize| {
+            let assurance = assurance.column(place).max();
             LeftOut {
-                mode,
+                mode: self.modes[place],
                 assurance,
-                why,
+                why: match assurance < FLOOR {
+                    true => UNLIKE,
+                    false => TAKEN,
+                },
             }
         };
         self.unpaired = left.into_iter().map(left_out).collect();
-        for (mode, lone) in self.alone() {
-            let other = partners.iter().position(|own| *own == Some(lone.partner));
-            if let Some(other) = other {
-                let (mode, other, partner) = (mode + 1, self.modes[other] + 1, lone.partner + 1);
+        for (mode, partner) in self.alone() {
+            if let Some(other) = partners.iter().position(|own| *own == Some(*partner)) {
+                let (mode, other, partner) = (mode + 1, self.modes[other] + 1, partner + 1);
                 return Err(self.loaded.job.refused(format!(
                     "test.partners: mode {partner} of the model is the partner of test mode {mode}, which has a frequency alone, and by \
                      its shape of test mode {other}"
                 )));
             }
         }
-        // Without any pair all stay, for the pre-flight to name the mistake.
         if !kept.is_empty() {
             self.test = self.test.select(&kept);
-            self.modes = kept.into_iter().map(|mode| self.modes[mode]).collect();
+            self.modes = kept.into_iter().map(|place| self.modes[place]).collect();
         }
-        self.together = self.indistinct(exact)?;
+        Ok(())
+    }
+
+    /// The same job with its first comparison, in which groups of modes are compared that the test or this model does not tell apart: their
+    /// frequencies are no further apart than the test's deviations tell, or those of their partners than by others ([`indistinct_groups`]).
+    fn compare(mut self) -> Result<Self, FileError> {
+        let first = match self.analyze(&self.loaded.ones()) {
+            // Even with more test modes than the model has modes, the pre-flight looks for the mistake.
+            Err(Error::Count {
+                what: "test modes", ..
+            }) => return Ok(self),
+            first => first?,
+        };
+        let exact = &first.model.exact;
+        let (hertz, roots) = (self.test.frequencies_hz(), exact.modes.frequencies_hz());
+        let deviation = |&mode: &usize| self.loaded.deviations(mode).frequency;
+        let deviations: Vec<f64> = self.modes.iter().map(deviation).collect();
+        let partners = exact.pairing.analysis_mode.iter();
+        let of_model: Vec<f64> = partners.map(|&mode| roots[mode]).collect();
+        let mut groups = indistinct_groups(&hertz, &deviations);
+        for more in indistinct_groups(&of_model, &vec![EQUAL; hertz.len()]) {
+            let (meeting, apart): (Vec<_>, Vec<_>) = groups
+                .into_iter()
+                .partition(|group: &Vec<usize>| group.iter().any(|mode| more.contains(mode)));
+            groups = apart;
+            groups.push(meeting.concat());
+        }
+        // In ascending frequency, as the modes are.
+        groups.iter_mut().for_each(|group| group.sort_unstable());
+        groups.sort_unstable();
+        self.comparison = Some(match self.loaded.job.compare.method {
+            Method::Paper => first,
+            Method::GaussNewton => first.with_groups(groups.clone())?,
+        });
+        self.together = groups;
         Ok(self)
     }
 
-    /// Groups of the test modes with shapes, by place, whose frequencies are no further apart than the test's deviations tell, or those of
-    /// their partners among these modes than by other relative deviations ([`indistinct_groups`]).
-    fn indistinct(&self, exact: &Modes) -> Result<Vec<Vec<usize>>, FileError> {
-        let hertz: Vec<f64> = self
-            .modes
-            .iter()
-            .map(|&mode| self.loaded.data.frequencies_hz[mode])
-            .collect();
-        let deviations = self
-            .modes
-            .iter()
-            .map(|&mode| self.loaded.deviations(mode).frequency);
-        let deviations: Vec<f64> = deviations.collect();
-        let assurance = decided(&assurance_of_roots(exact, &self.test.shapes)?);
-        let partners = pairs(&assurance, &exact.shapes, None, FLOOR)?;
-        let roots = exact.frequencies_hz();
-        let of_model = partners.iter().zip(&hertz);
-        let of_model = of_model.map(|(partner, own)| partner.map_or(*own, |mode| roots[mode]));
-        let mut groups = indistinct_groups(&hertz, &deviations);
-        let of_root = vec![EQUAL; deviations.len()];
-        for more in indistinct_groups(&of_model.collect::<Vec<_>>(), &of_root) {
-            let (meeting, mut apart): (Vec<_>, Vec<_>) = groups
-                .into_iter()
-                .partition(|group: &Vec<usize>| group.iter().any(|mode| more.contains(mode)));
-            let mut joined = meeting.concat();
-            joined.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
-            apart.push(joined);
-            groups = apart;
-        }
-        groups.sort_by(|a, b| hertz[a[0]].total_cmp(&hertz[b[0]]));
-        Ok(groups)
+    /// The first comparison.
+    ///
+    /// # Errors
+    /// [`Error::Count`] where the model has fewer modes than the test.
+    pub fn first_comparison(&self) -> Result<Comparison, Error> {
+        self.comparison
+            .clone()
+            .map_or_else(|| self.analyze(&self.loaded.ones()), Ok)
     }
 
     /// Test modes, from zero, of which a frequency alone is compared, ascending, with their partners in the first model.
-    pub fn alone(&self) -> &[(usize, LoneFrequency)] {
-        self.loaded.alone()
-    }
-
-    /// Selected test modes that are not compared, with their largest modal assurance with the modes of this model.
-    pub(super) fn unlike(&self, model: &Comparison) -> Result<Vec<LeftOut>, FileError> {
-        let (modes, reach) = (&model.model.exact.modes, self.reach(model));
-        let of_mode = |mode: usize| {
-            let test = self.loaded.measured(&[mode])?;
-            let close = assurance_of_roots(modes, &test.shapes)?;
-            let assurance = close.max();
-            let why = match self.within(&close, &[mode], &reach).max() < FLOOR {
-                _ if self.refused.contains(&mode) => HARM,
-                _ if assurance < FLOOR => UNLIKE,
-                true => OUT_OF_REACH,
-                false => TAKEN,
-            };
-            Ok(LeftOut {
-                mode,
-                assurance,
-                why,
-            })
-        };
-        self.not_compared().map(of_mode).collect()
+    pub fn alone(&self) -> &[(usize, usize)] {
+        &self.loaded.alone
     }
 
     /// Test modes with shapes, from zero, that the job selects and does not compare.
-    fn not_compared(&self) -> impl Iterator<Item = usize> {
-        let left = self.unpaired.iter().map(|left| left.mode);
-        left.filter(|mode| !self.modes.contains(mode))
+    pub(super) fn not_compared(&self) -> impl Iterator<Item = usize> {
+        self.loaded
+            .shaped()
+            .into_iter()
+            .filter(|mode| !self.modes.contains(mode))
     }
 
     /// The same job that also compares the test modes left out so far, as many at most, that resemble a mode of this model which can have
@@ -261,22 +205,22 @@ impl PreparedJob {
         model: &Comparison,
         most: usize,
     ) -> Result<Option<Self>, FileError> {
-        let left = self.not_compared();
-        let left = left.filter(|mode| !self.refused.contains(mode));
+        let left = self
+            .not_compared()
+            .filter(|mode| !self.refused.contains(mode));
         let all: Vec<usize> = self.modes.iter().copied().chain(left).collect();
         if all.len() == self.modes.len() {
             return Ok(None);
         }
-        let test = self.loaded.measured(&all)?;
-        let assurance = assurance_of_roots(&model.model.exact.modes, &test.shapes)?;
+        let (exact, test) = (&model.model.exact.modes, self.loaded.measured(&all)?);
+        let assurance = assurance_of_roots(exact, &test.shapes)?;
         let within = self.within(&assurance, &all, &self.reach(model));
-        let readings = &model.model.exact.modes.shapes;
-        let frequencies = self.frequencies(&all);
-        let costs = frequencies.costs(&model.model.exact.modes, &model.model.parts());
-        let partners = pairs(&within, readings, Some(&costs), FLOOR)?;
+        let costs = self.frequencies(&all).costs(exact, &model.model.parts());
+        let partners = pairs(&within, &exact.shapes, Some(&costs), FLOOR)?;
         let (compared, left) = partners.split_at(self.modes.len());
-        let left = left.iter().zip(&all[self.modes.len()..]);
         let joined: Vec<usize> = left
+            .iter()
+            .zip(&all[self.modes.len()..])
             .filter(|(partner, _)| partner.is_some())
             .map(|(_, mode)| *mode)
             .take(most)
@@ -284,7 +228,7 @@ impl PreparedJob {
         if joined.is_empty() || compared.contains(&None) {
             return Ok(None);
         }
-        let mut again = self.comparing_too(&joined)?;
+        let mut again = self.comparing_too(&joined)?.compare()?;
         again.joined.extend(joined);
         again.refused.clear();
         Ok(Some(again))
@@ -294,10 +238,10 @@ impl PreparedJob {
     fn comparing_too(&self, left: &[usize]) -> Result<Self, FileError> {
         let mut again = self.clone();
         again.modes.extend(left);
-        let hertz = &self.loaded.data.frequencies_hz;
-        again.modes.sort_by(|&a, &b| hertz[a].total_cmp(&hertz[b]));
+        ascend(&mut again.modes, &self.loaded.data);
         again.test = self.loaded.measured(&again.modes)?;
-        again.together = again.indistinct(&self.first.modes(self.analysis_modes)?)?;
+        again.together.clear();
+        again.comparison = None;
         Ok(again)
     }
 
@@ -316,21 +260,18 @@ impl PreparedJob {
             false => self.comparing_too(&left)?,
         };
         if self.loaded.job.compare.analysis_modes.is_none() {
-            let most = self.loaded.source.whole.dof_count();
-            far.analysis_modes = (2 * self.analysis_modes).min(most);
+            far.analysis_modes =
+                (2 * self.analysis_modes).min(self.loaded.source.whole.dof_count());
         }
-        let ones = self.loaded.ones();
-        match far.analyze(&ones) {
-            Ok(first) => Ok((far, first)),
-            Err(Error::Count { .. }) => Ok((self.clone(), self.analyze(&ones)?)),
-            Err(other) => Err(other.into()),
-        }
+        let far = far.compare().ok().filter(|far| far.comparison.is_some());
+        let far = far.unwrap_or_else(|| self.clone());
+        let first = far.first_comparison()?;
+        Ok((far, first))
     }
 
     /// True if no test mode with a shape has a partner.
     pub fn is_without_pairs(&self) -> bool {
-        let is_unpaired = |mode: &usize| self.unpaired.iter().any(|left| left.mode == *mode);
-        !self.modes.is_empty() && self.modes.iter().all(is_unpaired)
+        !self.unpaired.is_empty() && self.unpaired.len() == self.loaded.shaped().len()
     }
 
     /// Refuses a correlation in which no test mode has a partner.
@@ -349,44 +290,27 @@ impl PreparedJob {
     }
 
     /// The mass at the sensors that cross-orthogonality is to be measured with: that of the modes of a model that the test modes are
-    /// paired with, whatever other modes are taken; none where these are too alike at the sensors, or a test shape has no part of them.
+    /// paired with, whatever other modes are taken; none where a test shape has no part of them, or where they are so alike at the sensors
+    /// that what the test's noise adds may be one: noise over the least singular value of the modes, by two deviations.
     pub fn mass_at_sensors(&self, comparison: &Comparison) -> Option<DMatrix<f64>> {
         let (exact, test) = (&comparison.model.exact, &comparison.model.test);
-        let paired = exact
-            .modes
-            .shapes
-            .select_columns(&exact.pairing.analysis_mode);
-        if !self.is_invertible(&paired, &test.shapes) {
-            return None;
-        }
-        let mass = mass_by_modes(&paired)?;
-        test.scaled_with(&mass).ok().map(|_| mass)
-    }
-
-    /// True if what the test's noise adds to a cross-orthogonality with these modes is below one by two deviations. A reading's deviation
-    /// over the length of its shape is over the least singular value of the modes, of unit length, in the part of a mode of the test
-    /// that they hardly tell apart.
-    fn is_invertible(&self, paired: &DMatrix<f64>, test: &DMatrix<f64>) -> bool {
-        let mut unit = paired.clone();
-        unit.column_iter_mut().for_each(|mut shape| {
-            shape.normalize_mut();
-        });
-        let least = match unit.is_empty() {
-            true => None,
-            false => unit.try_svd(false, false, f64::EPSILON, 10_000),
+        // A reading's deviation over the length of its shape.
+        let noise = |(shape, &mode): (DVectorView<f64>, &usize)| {
+            self.loaded.deviations(mode).shape * shape.amax() / shape.norm()
         };
-        let least = least.map_or(0.0, |found| found.singular_values.min());
-        let noise = test
-            .column_iter()
-            .zip(&self.modes)
-            .map(|(shape, &mode)| self.loaded.deviations(mode).shape * shape.amax() / shape.norm());
-        2.0 * noise.fold(0.0, f64::max) < least
+        let noise = test.shapes.column_iter().zip(&self.modes).map(noise);
+        let least = 2.0 * noise.fold(0.0, f64::max);
+        let partners = &exact.pairing.analysis_mode;
+        let mass = mass_by_modes(&exact.modes.shapes.select_columns(partners), least)?;
+        test.scaled_with(&mass).ok().map(|_| mass)
     }
 
     /// Test modes that are compared, from zero: those with shapes, then those without.
     pub fn compared(&self) -> impl Iterator<Item = usize> {
-        let alone = self.alone().iter().map(|(mode, _)| *mode);
-        self.modes.iter().copied().chain(alone)
+        self.modes
+            .iter()
+            .copied()
+            .chain(self.alone().iter().map(|own| own.0))
     }
 
     /// Settings of weighted steps with the job's priors.
@@ -413,8 +337,11 @@ impl PreparedJob {
                 shape: own.shape / noise.shape,
             }
         };
-        let own = self.own_weights(is_held_out).into_iter();
-        own.zip(self.compared()).map(weight).collect()
+        self.own_weights(is_held_out)
+            .into_iter()
+            .zip(self.compared())
+            .map(weight)
+            .collect()
     }
 
     /// The part of a test mode's frequency that the digits of the model's matrices leave open, as a standard deviation: that of the nearest
@@ -422,30 +349,30 @@ impl PreparedJob {
     pub(super) fn open_part(&self, mode: usize) -> f64 {
         let own = self.loaded.data.frequencies_hz[mode];
         let far = |hertz: f64| (hertz / own).ln().abs();
-        let nearest = self.open.iter();
-        let nearest = nearest.min_by(|a, b| far(a[0]).total_cmp(&far(b[0])));
+        let nearest = self
+            .open
+            .iter()
+            .min_by(|a, b| far(a[0]).total_cmp(&far(b[0])));
         nearest.map_or(0.0, |nearest| nearest[1])
     }
 
     /// The job's own weights of the test modes, ones where it has none, of those that are held out or of the others; zeros of the rest.
     pub(super) fn own_weights(&self, is_held_out: bool) -> Vec<ModeWeight> {
-        let (numbers, compare) = (&self.loaded.job.test.modes, &self.loaded.job.compare);
-        let of = |list: &Option<Vec<f64>>, mode: usize| {
-            let place = numbers.as_ref().map_or(Some(mode), |all| {
-                all.iter().position(|number| *number == mode + 1)
-            });
-            list.as_ref()
-                .zip(place)
-                .and_then(|(list, place)| list.get(place).copied())
-                .unwrap_or(1.0)
-        };
-        let held = &self.loaded.job.test.hold_out;
-        let weight = |mode: usize| match held.contains(&(mode + 1)) == is_held_out {
-            true => ModeWeight {
-                frequency: of(&compare.frequency_weights, mode),
-                shape: of(&compare.shape_weights, mode),
-            },
-            false => ModeWeight::NONE,
+        let job = &self.loaded.job;
+        let weight = |mode: usize| {
+            let mut numbers = self.loaded.numbers.iter();
+            let place = numbers.position(|number| *number == mode + 1);
+            let of = |list: &Option<Vec<f64>>| {
+                let own = list.as_ref().zip(place);
+                own.map_or(1.0, |(list, place)| list[place])
+            };
+            match job.test.hold_out.contains(&(mode + 1)) == is_held_out {
+                true => ModeWeight {
+                    frequency: of(&job.compare.frequency_weights),
+                    shape: of(&job.compare.shape_weights),
+                },
+                false => ModeWeight::NONE,
+            }
         };
         self.compared().map(weight).collect()
     }
@@ -464,40 +391,51 @@ impl PreparedJob {
         factors: &[f64],
         near: Option<&DMatrix<f64>>,
     ) -> Result<Comparison, Error> {
-        let (whole, pair) = (&self.loaded.source.whole, self.pair());
-        let size = BasisSize {
-            modes: self.analysis_modes,
-            // Weighted steps have deflections of their own.
-            residual_vectors: match self.loaded.job.compare.method {
-                Method::Paper => RESIDUAL_VECTORS,
-                Method::GaussNewton => 0,
-            },
+        let (whole, modes) = (&self.loaded.source.whole, self.analysis_modes);
+        // Exact slopes want more modes than the basis has.
+        let most = modes.max(2 * self.test.len());
+        let place = match factors == self.loaded.ones() {
+            true => Arc::clone(&self.first),
+            false => whole.exactly(factors, &self.loaded.sensors, modes..=most, near)?,
         };
-        let model = match factors == self.loaded.ones() {
-            true => {
-                let deflections = Deflections::Each(size.residual_vectors);
-                let first = Arc::clone(&self.first);
-                SensorModel::of_whole(first, size.modes, &self.test, pair, deflections)
-            }
-            false => {
-                let sensors = &self.loaded.sensors;
-                whole.analyze_near(factors, sensors, &self.test, pair, size, near)
-            }
-        }?;
-        // Gauss-Newton steps have weights of their own.
-        match self.loaded.job.compare.method {
-            Method::Paper => Ok(model.weighted(&self.own_weights(false))?.into()),
-            Method::GaussNewton => {
-                let lone = self.alone().iter().map(|(_, lone)| *lone);
-                let mut comparison = Comparison::from(model)
-                    .with_groups(self.together.clone())?
-                    .with_component_weights(self.component_weights())?
-                    .with_lone_frequencies(lone.collect())?;
-                if self.partner_shapes.ncols() > 0 {
-                    comparison = comparison.followed_by_shape(self.partner_shapes.clone())?;
-                }
-                Ok(comparison)
-            }
+        self.beside(place, self.loaded.job.compare.method)
+    }
+
+    /// An analysis beside the test, as a method compares them.
+    pub(super) fn beside(&self, place: Arc<Place>, method: Method) -> Result<Comparison, Error> {
+        let with = |further| {
+            SensorModel::of_whole(
+                place,
+                self.analysis_modes,
+                &self.test,
+                self.pair(method),
+                Deflections::Each(further),
+            )
+        };
+        if method == Method::Paper {
+            return Ok(with(RESIDUAL_VECTORS)?
+                .weighted(&self.own_weights(false))?
+                .into());
+        }
+        // Weighted steps have deflections of their own.
+        let lone = |&(mode, partner): &(usize, usize)| LoneFrequency {
+            frequency_hz: self.loaded.data.frequencies_hz[mode],
+            partner,
+        };
+        let lone: Vec<_> = self.alone().iter().map(lone).collect();
+        let partners: Vec<usize> = lone.iter().map(|own| own.partner).collect();
+        let comparison = Comparison::from(with(0)?)
+            .with_groups(self.together.clone())?
+            .with_component_weights(self.component_weights())?
+            .with_lone_frequencies(lone)?;
+        match partners.is_empty() {
+            true => Ok(comparison),
+            false => comparison.followed_by_shape(
+                self.first
+                    .modes(self.analysis_modes)?
+                    .shapes
+                    .select_columns(&partners),
+            ),
         }
     }
 
@@ -516,42 +454,33 @@ impl PreparedJob {
         }
         weights
     }
-
-    /// Groups of the test modes with shapes, by place, that are compared as subspaces.
-    pub fn together(&self) -> &[Vec<usize>] {
-        &self.together
-    }
 }
 
-/// The first analysis with twice as many modes as the job takes, and how many it takes: the job's number, else the usual one, or fewer where
-/// the model has no more, and as many more as are nearer to the last of them than modes whose shapes a change mixes.
+/// The whole model's first analysis, and how many modes the job takes of it: its number, else the usual one, or fewer where the model has no
+/// more, and as many more as are nearer to the last of them than modes whose shapes a change mixes. It has those that the pre-flight looks
+/// at too, twice the usual number, and some more than the job takes, so that the root of the last of them is there with all its modes.
 fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<Place>), FileError> {
+    let (whole, usual) = (&loaded.source.whole, loaded.usual_modes());
     let asked = loaded.job.compare.analysis_modes;
-    let most = loaded.source.whole.dof_count();
-    let modes = asked.unwrap_or_else(|| loaded.usual_modes().min(most));
-    let partners = loaded.alone().iter().map(|(_, lone)| lone.partner + 1);
+    let modes = asked.unwrap_or(usual.min(whole.dof_count()));
+    let partners = loaded.alone.iter().map(|own| own.1 + 1);
     let highest = partners.max().unwrap_or(0);
     ensure(highest <= modes, || {
         loaded.job.refused(format!(
             "test.partners: mode {highest} of the model is not among the {modes} taken; see compare.analysis_modes"
         ))
     })?;
-    let (modes, first) = match loaded.analyzed(modes) {
-        Err(Error::Count {
-            what: FINITE,
-            most: available,
-            ..
-        }) if asked.is_none() && available > 0 => (available, loaded.analyzed(available)?),
-        first => {
-            let refused = |error| {
-                let name = |row| loaded.source.row_name(row);
-                match explained(&error, loaded.source.whole.half_unit(), name) {
-                    Some(reason) => loaded.job.refused(reason),
-                    None => error.into(),
-                }
-            };
-            (modes, first.map_err(refused)?)
-        }
+    let analyze = |modes: usize| {
+        let twice = 2 * usual;
+        let most = if modes + 2 < twice { twice } else { modes + 8 };
+        whole.exactly(&loaded.ones(), &loaded.sensors, modes..=most, None)
     };
+    let first = match asked {
+        Some(_) => analyze(modes).map(|first| (modes, first)),
+        None => with_as_many(modes, analyze),
+    };
+    let name = |row| loaded.source.row_name(row);
+    let file = loaded.job.path.display();
+    let (modes, first) = first.map_err(|error| explained(error, file, whole.half_unit(), name))?;
     Ok((first.whole_roots(modes), first))
 }

@@ -1,11 +1,17 @@
 //! Frequencies that a mode of the model can have within the bounds and the priors of the parameters.
 
-use super::PreparedJob;
-use super::concern::{Check, Concern};
-use super::preflight::FEWER;
-use crate::method::step::Bounds;
-use crate::sparse::ParameterMatrix;
-use crate::weighted::comparison::Comparison;
+use super::{
+    PreparedJob,
+    concern::{Check, Concern, Grade},
+    likelihood::FLOOR,
+    preflight::FEWER,
+};
+use crate::{
+    files::error::FileError,
+    method::step::Bounds,
+    sparse::ParameterMatrix,
+    weighted::{close_modes::assurance_of_roots, comparison::Comparison},
+};
 use nalgebra::DMatrix;
 
 /// Deviations of a prior, or of a measured frequency, within which all but one in sixteen thousand lie.
@@ -13,6 +19,34 @@ const FAR: f64 = 4.0;
 
 /// Ratio of two frequencies beyond which a stiffness is wrong more than twofold, or something else is.
 const FAR_APART: f64 = 1.5;
+
+/// A test mode that is not compared, and why.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeftOut {
+    /// Its place in the test's file, from zero.
+    pub mode: usize,
+    /// Its largest modal assurance with a mode of the model.
+    pub assurance: f64,
+    /// The reason.
+    pub why: &'static str,
+}
+
+/// Reasons for which a test mode is not compared.
+pub const UNLIKE: &str = "it resembles no mode of the model";
+pub const TAKEN: &str = "the mode of the model that it resembles belongs to another test mode";
+const HARM: &str = "compared it makes the others worse";
+const OUT_OF_REACH: &str = "no mode of the model that it resembles can have its frequency within the bounds and priors of the parameters";
+
+impl LeftOut {
+    /// The concern that says so: a remark before the steps.
+    pub(super) fn concern(&self, grade: Grade) -> Concern {
+        let (mode, assurance, why) = (self.mode + 1, self.assurance, self.why);
+        let words = format!(
+            "Test mode {mode} is not compared: {why} (modal assurance {assurance:.2} at most)."
+        );
+        Concern::new(grade, Check::Pairs, "not-compared-", &[mode], words)
+    }
+}
 
 impl PreparedJob {
     /// Least and largest frequency (Hz) of every mode of a model for which factors within their bounds, or where there are none within
@@ -57,13 +91,12 @@ impl PreparedJob {
 
     /// Doubts about pairs of the first model that no factors can bring together, and remarks on those far apart, which a test in other
     /// units has too.
-    pub(super) fn frequency_concerns(&self, first: Option<&Comparison>) -> Vec<Concern> {
-        let Some(first) = first else {
+    pub(super) fn frequency_concerns(&self) -> Vec<Concern> {
+        let Some(first) = &self.comparison else {
             return vec![Concern::not_checked(Check::Reach, FEWER)];
         };
         let hertz = first.model.exact.modes.frequencies_hz();
         let reach = self.reach(first);
-        let pairs = self.compared().zip(first.partners());
         let concern = |(test, partner): (usize, usize)| {
             let (own, near) = (self.loaded.data.frequencies_hz[test], reach[partner]);
             let (mode, other, ratio) = (test + 1, partner + 1, own / hertz[partner]);
@@ -89,7 +122,31 @@ impl PreparedJob {
             };
             is_far.then(|| Concern::remark(Check::Reach, "far-apart-", &[mode], words()))
         };
-        pairs.filter_map(concern).collect()
+        self.compared()
+            .zip(first.partners())
+            .filter_map(concern)
+            .collect()
+    }
+
+    /// Selected test modes that are not compared, with their largest modal assurance with the modes of this model.
+    pub(super) fn unlike(&self, model: &Comparison) -> Result<Vec<LeftOut>, FileError> {
+        let (modes, reach) = (&model.model.exact.modes, self.reach(model));
+        let of_mode = |mode: usize| {
+            let close = assurance_of_roots(modes, &self.loaded.measured(&[mode])?.shapes)?;
+            let assurance = close.max();
+            let why = match self.within(&close, &[mode], &reach).max() < FLOOR {
+                _ if self.refused.contains(&mode) => HARM,
+                _ if assurance < FLOOR => UNLIKE,
+                true => OUT_OF_REACH,
+                false => TAKEN,
+            };
+            Ok(LeftOut {
+                mode,
+                assurance,
+                why,
+            })
+        };
+        self.not_compared().map(of_mode).collect()
     }
 
     /// Modal assurance (n × g) of test modes with modes that can have their frequencies, and zero with others; those that are compared keep

@@ -1,10 +1,13 @@
 //! Repeated tests: their mean, and the standard deviations that their scatter gives.
 
-use super::Job;
-use super::prepared::FLOOR;
-use crate::files::error::{FileError, ensure};
-use crate::files::test_data::{self, Sensor, TestData};
-use crate::method::linear_algebra::symmetric_eigen;
+use super::{Job, likelihood::FLOOR};
+use crate::{
+    files::{
+        error::{FileError, ensure},
+        test_data::{self, Sensor, TestData},
+    },
+    method::linear_algebra::symmetric_eigen,
+};
 use nalgebra::{DMatrix, DVector};
 use std::path::PathBuf;
 
@@ -20,10 +23,13 @@ impl Job {
         };
         match (&self.test.file, &self.test.repeats[..]) {
             (Some(file), []) => read(file, "test.file"),
-            (None, repeats @ [_, _, ..]) => {
-                let tests = repeats.iter().map(|file| read(file, "test.repeats"));
-                mean_of(self, &tests.collect::<Result<Vec<_>, _>>()?)
-            }
+            (None, repeats @ [_, _, ..]) => mean_of(
+                self,
+                &repeats
+                    .iter()
+                    .map(|file| read(file, "test.repeats"))
+                    .collect::<Result<Vec<_>, _>>()?,
+            ),
             _ => Err(self.refused("[test] must name either a file, or two or more repeats")),
         }
     }
@@ -44,61 +50,26 @@ impl Job {
 ///
 /// Source: Anderson, *An Introduction to Multivariate Statistical Analysis*, 3rd ed. (2003), section 7.7.
 fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
-    let repeats = &job.test.repeats;
-    let first = &tests[0];
-    let (modes, sensors) = (first.frequencies_hz.len(), first.sensors.len());
-    let mut rows = Vec::new();
-    for (test, file) in tests.iter().zip(repeats) {
-        if let Some(mode) = test.rigid.first() {
-            let (file, mode) = (file.display(), mode + 1);
-            return Err(job.refused(format!(
-                "test.repeats: mode {mode} of {file} has a frequency of 0 Hz; leave rigid-body modes out of repeated tests"
-            )));
-        }
-        let place = |wanted| {
-            let known = |sensor| key(sensor) == key(wanted);
-            test.sensors.iter().position(known)
-        };
-        let found: Option<Vec<usize>> = first.sensors.iter().map(place).collect();
-        let fits = (test.frequencies_hz.len(), &test.alone, test.sensors.len())
-            == (modes, &first.alone, sensors);
-        match found.filter(|_| fits) {
-            Some(found) => rows.push(found),
-            None => {
-                let (file, first) = (file.display(), repeats[0].display());
-                return Err(job.refused(format!(
-                    "test.repeats: {file} has not the sensors, modes and shapes of {first}"
-                )));
-            }
-        }
-    }
-    let mut of_frequencies = DMatrix::zeros(modes, tests.len());
+    let (rows, count) = (matched(job, tests)?, tests.len());
     let mut data = TestData {
-        frequency_deviation: None,
         shape_deviation: None,
-        ..first.clone()
+        ..tests[0].clone()
     };
-    for mode in 0..modes {
-        let hertz = DVector::from_iterator(
-            tests.len(),
-            tests.iter().map(|test| test.frequencies_hz[mode]),
-        );
-        data.frequencies_hz[mode] = hertz.mean();
-        let relative = hertz / data.frequencies_hz[mode];
-        of_frequencies.set_row(mode, &relative.add_scalar(-1.0).transpose());
-        if data.alone.contains(&mode) {
-            continue;
-        }
+    let (modes, sensors) = (data.frequencies_hz.len(), data.sensors.len());
+    let mut hertz = DMatrix::from_fn(modes, count, |mode, test| tests[test].frequencies_hz[mode]);
+    for (mut own, mean) in hertz.row_iter_mut().zip(&mut data.frequencies_hz) {
+        *mean = own.mean();
+        own /= *mean;
+        own.add_scalar_mut(-1.0);
+    }
+    for mode in (0..modes).filter(|mode| !tests[0].alone.contains(mode)) {
         let shapes = tests.iter().zip(&rows);
-        let shapes = shapes.map(|(test, rows)| test.shapes.column(mode).select_rows(rows));
+        let shapes =
+            shapes.map(|(own, rows)| own.shapes.column(mode).select_rows(rows).normalize());
         let mut shapes = DMatrix::from_columns(&shapes.collect::<Vec<_>>());
-        shapes
-            .column_iter_mut()
-            .for_each(|mut shape| shape /= shape.norm());
         let (_, vectors) = symmetric_eigen("closeness of repeats", &shapes.tr_mul(&shapes))?;
-        let common = (&shapes * vectors.column(tests.len() - 1)).normalize();
-        let along = shapes.tr_mul(&common);
-        for (file, along) in repeats.iter().zip(&along) {
+        let along = shapes.tr_mul(&(&shapes * vectors.column(count - 1)).normalize());
+        for (file, along) in job.test.repeats.iter().zip(&along) {
             let assurance = along.powi(2);
             ensure(assurance >= FLOOR, || {
                 let (file, mode) = (file.display(), mode + 1);
@@ -107,39 +78,54 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
                 ))
             })?;
         }
-        let sign = along[0].signum();
         for (mut shape, along) in shapes.column_iter_mut().zip(&along) {
-            shape *= sign / along;
+            shape /= *along;
         }
         let mean = shapes.column_mean();
-        let largest = mean.amax();
-        shapes
-            .column_iter_mut()
-            .for_each(|mut shape| shape -= &mean);
-        let apart = shapes / largest;
+        let largest = along[0].signum() * mean.amax();
+        for mut shape in shapes.column_iter_mut() {
+            shape -= &mean;
+        }
         data.shapes.set_column(mode, &(mean / largest));
         if sensors > 1 {
             let what = format!("the shape of mode {}", mode + 1);
-            let own = deviations(job, &apart, sensors - 1, &what)?;
+            let own = deviation(job, &(shapes / largest), sensors - 1, &what)?;
+            let own = DVector::from_element(sensors, own);
             data.component_deviation.insert(mode, own);
         }
     }
-    let own = deviations(job, &of_frequencies, modes, "frequencies")?;
-    data.frequency_deviation = Some(own.data.into());
+    let own = deviation(job, &hertz, modes, "frequencies")?;
+    data.frequency_deviation = Some(vec![own; modes]);
     Ok(data)
 }
 
-fn key(sensor: &Sensor) -> (&str, Option<usize>, usize) {
-    (&sensor.name, sensor.grid, sensor.direction)
+/// Rows of the shapes of every test in the order of the first one's sensors.
+fn matched(job: &Job, tests: &[TestData]) -> Result<Vec<Vec<usize>>, FileError> {
+    let (repeats, first) = (&job.test.repeats, &tests[0]);
+    let of_test = |(test, file): (&TestData, &PathBuf)| {
+        if let Some(mode) = test.rigid.first() {
+            let (file, mode) = (file.display(), mode + 1);
+            return Err(job.refused(format!(
+                "test.repeats: mode {mode} of {file} has a frequency of 0 Hz; leave rigid-body modes out of repeated tests"
+            )));
+        }
+        let key = |own: &Sensor| (own.name.clone(), own.grid, own.direction);
+        let place = |own: &Sensor| test.sensors.iter().position(|other| key(other) == key(own));
+        let found: Option<Vec<usize>> = first.sensors.iter().map(place).collect();
+        let size = |own: &TestData| (own.frequencies_hz.len(), own.sensors.len());
+        let fits = size(test) == size(first) && test.alone == first.alone;
+        found.filter(|_| fits).ok_or_else(|| {
+            let (file, first) = (file.display(), repeats[0].display());
+            job.refused(format!(
+                "test.repeats: {file} has not the sensors, modes and shapes of {first}"
+            ))
+        })
+    };
+    tests.iter().zip(repeats).map(of_test).collect()
 }
 
-/// Standard deviations of the means of some numbers that are `apart` from these (numbers × tests), `free` of them independent.
-fn deviations(
-    job: &Job,
-    apart: &DMatrix<f64>,
-    free: usize,
-    what: &str,
-) -> Result<DVector<f64>, FileError> {
+/// Standard deviation of the means of some numbers that are `apart` from these (numbers × tests), `free` of them independent.
+fn deviation(job: &Job, apart: &DMatrix<f64>, free: usize, what: &str) -> Result<f64, FileError> {
     let (tests, count) = (apart.ncols(), apart.ncols() as f64);
     let variance = apart.norm_squared() / (free as f64 * (count - 1.0) - 2.0);
     ensure(variance > 0.0 && variance < f64::INFINITY, || {
@@ -147,8 +133,5 @@ fn deviations(
             "test.repeats: {tests} tests do not tell the deviations of {what}; name more, or one as test.file with deviations"
         ))
     })?;
-    Ok(DVector::from_element(
-        apart.nrows(),
-        (variance / count).sqrt(),
-    ))
+    Ok((variance / count).sqrt())
 }

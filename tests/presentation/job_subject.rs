@@ -28,7 +28,7 @@ fn a_job_is_drawn_with_the_rods_the_grids_and_the_bounds_of_its_deck() {
     assert_eq!(bounds.collect_vec(), [Some((0.5, 2.0)), None]);
     // Without elements the lines of the test are drawn, but for one with an end that stands nowhere; a rotation moves nothing.
     let own = Arc::make_mut(&mut found.found.prepared.loaded);
-    Arc::make_mut(&mut own.source).geometry.elements.clear();
+    own.source.geometry.elements.clear();
     own.data.lines = vec![[1, 2], [2, 99]];
     own.placed[0].direction = 3;
     let drawing = report_of(&found).drawing.unwrap();

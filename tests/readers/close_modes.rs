@@ -47,7 +47,7 @@ fn turned_shapes_of_close_modes_are_no_error() {
     // Equal in the model or a little apart; in the test apart by half the least that it tells.
     for (split, angle) in [(1.0, 0.6), (1.0, 0.785), (1.002, -0.4)] {
         let (loaded, result) = corrected(&towers([split, 1.014, angle]));
-        assert_eq!(loaded.together(), [vec![0, 1], vec![2, 3], vec![4, 5]]);
+        assert_eq!(loaded.together, [vec![0, 1], vec![2, 3], vec![4, 5]]);
         assert!(!result.trust.has_doubt(), "{:?}", result.trust);
         assert_eq!(about(&result.trust, "close-modes-3-4"), ["3", "4"]);
         assert!(!result.trust.stands_against());

@@ -108,14 +108,7 @@ fn looked_at(
         shares: Vec::new(),
     };
     let test = modes(tests, &hadamard * shapes);
-    preflight_at_sensors(
-        &seen,
-        (&test, noise),
-        &Settings::default(),
-        &[],
-        &Names::default(),
-    )
-    .unwrap()
+    preflight_at_sensors(&seen, (&test, noise), &Names::default()).unwrap()
 }
 
 /// Every limit of the look at frequencies, from both sides. The ratios $r$ have the median $m$ and the mean deviation $\sum |\ln r - \ln m|/n$.
@@ -268,14 +261,7 @@ fn points_tell_as_many_modes_apart_as_have_three_tenths_of_their_own() {
             modes: own.clone(),
             shares: Vec::new(),
         };
-        let found = preflight_at_sensors(
-            &seen,
-            (&own, &[]),
-            &Settings::default(),
-            &[],
-            &Names::default(),
-        )
-        .unwrap();
+        let found = preflight_at_sensors(&seen, (&own, &[]), &Names::default()).unwrap();
         line(&found, &["too-many-modes"])
     };
     let said = |apart: usize| {

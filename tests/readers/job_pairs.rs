@@ -325,12 +325,9 @@ fn of_units(nets: u64) -> [usize; 2] {
             let files = retested(right.clone(), |data| {
                 data.frequencies_hz
                     .iter_mut()
-                    .for_each(|own| *own *= known.factor)
+                    .for_each(|own| *own *= known.0)
             });
-            let (trust, name) = (
-                trust_in(&prepared(&files)),
-                format!("near {}: ", known.name),
-            );
+            let (trust, name) = (trust_in(&prepared(&files)), format!("near {}: ", known.1));
             let is_accused =
                 |own: &Concern| own.grade == Grade::Doubt && own.check == Check::Readings;
             named += usize::from(trust.all().iter().any(|own| own.words.contains(&name)));

@@ -30,7 +30,8 @@ fn written(files: &Files, digits: usize, (name, factor): (&str, f64)) -> Files {
 /// Doubts about parts.
 fn doubts(files: &Files) -> Vec<String> {
     let trust = trust_in(&prepared(files));
-    let all = trust.of(Check::PartsOfTheModel);
+    let all = trust.all().iter();
+    let all = all.filter(|own| own.check == Check::PartsOfTheModel);
     all.map(|own| own.identifier.clone()).collect()
 }
 

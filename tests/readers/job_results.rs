@@ -282,27 +282,21 @@ fn a_prior_is_the_parameters_own_or_that_of_all() {
 
 /// What is weighed otherwise than by its deviation is said, and an entry that only the other method reads is not passed over.
 #[test]
-fn own_weights_and_the_papers_settings_are_said() {
+fn own_weights_are_said() {
     let words = |entries: &str| -> String {
         let files = rods_with("[compare]", entries);
         let trust = ran(&files).trust;
         trust.all().iter().map(|own| &own.words[..]).collect()
     };
-    for (entries, divides, unused) in [
-        ("[compare]", false, false),
-        ("[compare]\nshape_weights = [1, 0, 1]", false, false),
-        ("[compare]\nshape_weights = [1, 2, 1]", true, false),
-        ("[correlation]\nmost_passes = 3\n[compare]", false, true),
+    for (entries, divides) in [
+        ("[compare]", false),
+        ("[compare]\nshape_weights = [1, 0, 1]", false),
+        ("[compare]\nshape_weights = [1, 2, 1]", true),
     ] {
         let words = words(entries);
         assert_eq!(
             words.contains("weights count as dividing"),
             divides,
-            "{words}"
-        );
-        assert_eq!(
-            words.contains("correlation.most_passes (of the paper"),
-            unused,
             "{words}"
         );
     }

@@ -4,7 +4,6 @@ use crate::common::jobs::{loaded, test_data, torque_box_truth};
 use crate::prelude::*;
 use corfem::job::Method;
 use corfem::present::report::places;
-use std::sync::Arc;
 
 const NUMBERS: Numbers = Numbers {
     relative: JOB_RESULTS,
@@ -123,8 +122,9 @@ fn the_first_model_is_the_one_that_was_prepared() {
         .unwrap()
         .vibrations;
     assert_eq!(modes_of(&first).frequencies_hz(), near.frequencies_hz());
-    let mut by_paper = prepared.clone();
-    Arc::make_mut(&mut by_paper.loaded).job.compare.method = Method::Paper;
+    let mut by_paper = (*prepared.loaded).clone();
+    by_paper.job.compare.method = Method::Paper;
+    let by_paper = by_paper.prepare().unwrap();
     let finished = crate::common::jobs::finished(&by_paper);
     let History::Paper(run) = &finished.found.history else {
         panic!("by the paper's loops")

@@ -142,7 +142,7 @@ fn no_call_around_the_method_ends_in_a_panic() {
     }
     for shapes in [empty.clone(), flat.clone(), DMatrix::zeros(3, 2)] {
         no_panic! {
-            Ok::<_, Error>(mass_by_modes(&shapes));
+            Ok::<_, Error>(mass_by_modes(&shapes, 0.0));
         }
     }
     no_panic! {

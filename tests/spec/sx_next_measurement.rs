@@ -55,7 +55,7 @@ fn with_sensor(files: &Files, grid: usize) -> Files {
         }
     };
     let blank = retested(files.clone(), |data| add(data, &DVector::zeros(5)));
-    let (groups, (_, read)) = (prepared(files).together().to_vec(), seen(&blank));
+    let (groups, (_, read)) = (prepared(files).together.clone(), seen(&blank));
     retested(files.clone(), |data| {
         let old = data.shapes.clone();
         let readings = (0..5).map(|j| {

@@ -25,8 +25,6 @@ pub fn chain() -> Specimen {
             mass,
             shares: wrong.collect(),
         },
-        settings: Settings::default(),
-        ranges: vec![None; count],
     }
 }
 
@@ -52,14 +50,14 @@ fn factors_are_what_they_are_called() {
             .zip([TAU.powi(2), 3600.0, 1000.0, 386.09, 9.81])
     {
         assert!(
-            relative_error(known.factor.powi(2), squared) < ROUND_OFF,
+            relative_error(known.0.powi(2), squared) < ROUND_OFF,
             "{}",
-            known.name
+            known.1
         );
     }
     for pair in FACTORS.chunks(2) {
-        assert_within(pair[0].factor * pair[1].factor, 1.0, ROUND_OFF);
-        assert_eq!(format!("1/{}", pair[0].name), pair[1].name);
+        assert_within(pair[0].0 * pair[1].0, 1.0, ROUND_OFF);
+        assert_eq!(format!("1/{}", pair[0].1), pair[1].1);
     }
 }
 
@@ -121,8 +119,7 @@ fn modes_far_off_in_frequency_do_not_explain_a_reversed_sensor() {
         };
         let mut test = chain.test.clone();
         alter(&mut test, |_, shapes| shapes.row_mut(sensor).neg_mut());
-        let (settings, names) = (Settings::default(), Names::default());
-        let found = preflight_at_sensors(&seen, (&test, &[]), &settings, &[], &names).unwrap();
+        let found = preflight_at_sensors(&seen, (&test, &[]), &Names::default()).unwrap();
         let reversed = Change::Reversed(sensor);
         assert!(
             found.iter().any(|own| is_of(own, &reversed)),

@@ -1,14 +1,19 @@
 //! Frequencies that are all wrong by one factor, or that belong to other shapes.
 
-use super::SeenModes;
-use super::readings::{FALSE_ALARMS, frequency_costs};
-use crate::job::assignment::pair_cheaply;
-use crate::job::concern::{Check, Concern};
-use crate::job::likelihood::costs;
-use crate::method::error::Error;
-use crate::method::modes::Modes;
-use crate::sparse::modal_assurance;
-use crate::weighted::noise::Noise;
+use super::{
+    SeenModes,
+    readings::{FALSE_ALARMS, frequency_costs},
+};
+use crate::{
+    job::{
+        assignment::pair_cheaply,
+        concern::{Check, Concern, NONE},
+        likelihood::costs,
+    },
+    method::{error::Error, modes::Modes},
+    sparse::modal_assurance,
+    weighted::noise::Noise,
+};
 use std::f64::consts::TAU;
 
 /// How far the median ratio may be from a named factor: a first model is up to 30 % wrong.
@@ -22,62 +27,43 @@ const LEAST_GAIN: f64 = 0.05;
 /// exchange mends 0.10 of it.
 const LEAST_SHARE: f64 = 0.3;
 
-/// A factor between frequencies of test and model, and the mistake that makes it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NamedFactor {
-    /// Test over model.
-    pub factor: f64,
-    /// How the factor is written.
-    pub name: &'static str,
-    /// The mistake.
-    pub mistake: &'static str,
-}
-
-const fn named(factor: f64, name: &'static str, mistake: &'static str) -> NamedFactor {
-    NamedFactor {
-        factor,
-        name,
-        mistake,
-    }
-}
-
 /// Square roots of 1000, 386.09 and 9.81.
 const THOUSAND: f64 = 31.622_776_601_683_793;
 const INCHES: f64 = 19.649_173_010_587_493;
 const METERS: f64 = 3.132_091_952_673_165;
 
-/// The known factors, in both directions.
-pub const FACTORS: [NamedFactor; 10] = [
-    named(TAU, "2π", "the test is in rad/s"),
-    named(
+/// Known factors between frequencies of test and model in both directions, with how they are written and the mistakes that make them.
+pub const FACTORS: [(f64, &str, &str); 10] = [
+    (TAU, "2π", "the test is in rad/s"),
+    (
         1.0 / TAU,
         "1/2π",
         "the test was divided by 2π, or the model's mass and stiffness are for rad/s",
     ),
-    named(60.0, "60", "the test is in rpm"),
-    named(1.0 / 60.0, "1/60", "the test was divided by 60"),
-    named(
+    (60.0, "60", "the test is in rpm"),
+    (1.0 / 60.0, "1/60", "the test was divided by 60"),
+    (
         THOUSAND,
         "√1000",
         "the model's mass is 1000 times too large, as grams for kilograms",
     ),
-    named(
+    (
         1.0 / THOUSAND,
         "1/√1000",
         "the model's mass is 1000 times too small, as kilograms for grams",
     ),
-    named(
+    (
         INCHES,
         "√386.09",
         "the model has weight in lbf for mass in lbf·s²/in",
     ),
-    named(
+    (
         1.0 / INCHES,
         "1/√386.09",
         "the model's mass was divided by 386.09 in/s² twice",
     ),
-    named(METERS, "√9.81", "the model has weight in N for mass in kg"),
-    named(
+    (METERS, "√9.81", "the model has weight in N for mass in kg"),
+    (
         1.0 / METERS,
         "1/√9.81",
         "the model's mass was divided by 9.81 m/s² twice",
@@ -110,7 +96,7 @@ fn spread(test: &[f64], analysis: &[f64]) -> (f64, f64) {
 ///
 /// # Errors
 /// Errors of [`modal_assurance`] and [`pair_cheaply`].
-pub(super) fn common_factor(
+pub fn common_factor(
     seen: &SeenModes,
     (test, noise): (&Modes, &[Noise]),
 ) -> Result<Option<(f64, Concern)>, Error> {
@@ -119,24 +105,24 @@ pub(super) fn common_factor(
     let test = test.frequencies_hz();
     let by = |factor: f64| {
         let hertz: Vec<f64> = test.iter().map(|own| own / factor).collect();
-        let by_frequency = frequency_costs(seen, &hertz, noise);
-        pair_cheaply(&costs(&assurance, seen_shapes, Some(&by_frequency)))
+        pair_cheaply(&costs(
+            &assurance,
+            seen_shapes,
+            Some(&frequency_costs(seen, &hertz, noise)),
+        ))
     };
     let of = |partners: Vec<Option<usize>>| {
         let partners: Vec<usize> = partners.into_iter().flatten().collect();
         let own = seen.modes.select(&partners).frequencies_hz();
         (spread(&test, &own).0, own)
     };
-    let by_shape = pair_cheaply(&costs(&assurance, seen_shapes, None))?.0;
-    let unnamed = of(by_shape).0.exp();
+    let unnamed = of(pair_cheaply(&costs(&assurance, seen_shapes, None))?.0)
+        .0
+        .exp();
     let (mut best, mut least) = by(1.0)?;
     // Markov's inequality, as of readings.
     least -= (FACTORS.len() as f64 / FALSE_ALARMS).ln();
-    for factor in FACTORS
-        .map(|known| known.factor)
-        .into_iter()
-        .chain([unnamed])
-    {
+    for factor in FACTORS.map(|known| known.0).into_iter().chain([unnamed]) {
         let (partners, cost) = by(factor)?;
         if cost < least {
             (best, least) = (partners, cost);
@@ -144,29 +130,38 @@ pub(super) fn common_factor(
     }
     let (median, analysis) = of(best);
     let distance = |factor: f64| (median - factor.ln()).abs();
-    let ratios = test.iter().zip(&analysis).map(|(test, own)| test / own);
-    let alike = ratios.filter(|ratio| distance(*ratio) < MODEL_ERROR.ln());
+    let alike = test
+        .iter()
+        .zip(&analysis)
+        .map(|(test, own)| test / own)
+        .filter(|ratio| distance(*ratio) < MODEL_ERROR.ln());
     if 2 * alike.count() < test.len() || distance(1.0) < UNNAMED.ln() {
         return Ok(None);
     }
-    let nearest = FACTORS
+    let (factor, why) = match FACTORS
         .into_iter()
-        .min_by(|a, b| distance(a.factor).total_cmp(&distance(b.factor)));
-    let named = nearest.filter(|known| distance(known.factor) < MODEL_ERROR.ln());
-    let why = named.map_or("by no mistake known here.".to_owned(), |own| {
-        format!("near {}: {}?", own.name, own.mistake)
-    });
-    let factor = named.map_or(median.exp(), |own| own.factor);
-    let words = format!(
-        "Test frequencies are {:.4} times the model's, {why}",
-        median.exp()
-    );
-    let doubt = Concern::doubt(Check::CommonFactor, "common-factor", &[""; 0], words);
-    Ok(Some((factor, doubt)))
+        .min_by(|a, b| distance(a.0).total_cmp(&distance(b.0)))
+        .filter(|known| distance(known.0) < MODEL_ERROR.ln())
+    {
+        Some((factor, name, mistake)) => (factor, format!("near {name}: {mistake}?")),
+        None => (median.exp(), "by no mistake known here.".to_owned()),
+    };
+    Ok(Some((
+        factor,
+        Concern::doubt(
+            Check::CommonFactor,
+            "common-factor",
+            &NONE,
+            format!(
+                "Test frequencies are {:.4} times the model's, {why}",
+                median.exp()
+            ),
+        ),
+    )))
 }
 
 /// A doubt about the two frequencies, of modes that have numbers, whose exchange makes the ratios most alike, if it does so enough.
-pub(super) fn exchanged(
+pub fn exchanged(
     test: &[f64],
     analysis: &[f64],
     number: impl Fn(usize) -> usize,
@@ -178,8 +173,9 @@ pub(super) fn exchanged(
         test.swap(a, b);
         deviation(&test)
     };
-    let all = (0..test.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
-    let both = all.min_by(|one, other| after(one).total_cmp(&after(other)))?;
+    let both = (0..test.len())
+        .flat_map(|b| (0..b).map(move |a| [a, b]))
+        .min_by(|one, other| after(one).total_cmp(&after(other)))?;
     let gain = before - after(&both);
     let is_enough = gain * test.len() as f64 >= LEAST_GAIN && gain >= LEAST_SHARE * before;
     // Modes are numbered as their frequencies ascend: only where these do not may two be exchanged.

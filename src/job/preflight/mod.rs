@@ -5,30 +5,28 @@
 //! explains the shapes best is named, if it does so well enough (`readings.rs` has the equations). Frequencies tell modes of like shapes
 //! apart there, so a factor of all of them is looked for first and taken out.
 
+mod change;
 mod frequencies;
 mod readings;
-mod shapes;
-mod words;
 
-pub use frequencies::{FACTORS, NamedFactor};
+pub use change::Change;
+pub use frequencies::FACTORS;
 pub use readings::SeenModes;
-pub use shapes::Change;
-pub use words::Names;
 
-use crate::job::concern::{Check, Concern};
-use crate::method::error::Error;
-use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
-use crate::method::modes::Modes;
-use crate::method::outer_loop::Settings;
-use crate::method::sorting::pair_modes;
-use crate::method::step::Bounds;
-use crate::sparse::{cosines, modal_assurance};
-use crate::weighted::misfit::most_by_noise;
-use crate::weighted::noise::Noise;
+use crate::{
+    job::concern::{Check, Concern, NONE},
+    method::{
+        error::Error,
+        linear_algebra::{symmetric_eigen, symmetric_part},
+        modes::Modes,
+        sorting::pair_modes,
+    },
+    sparse::{cosines, modal_assurance},
+    weighted::{misfit::most_by_noise, noise::Noise},
+};
 use frequencies::{common_factor, exchanged};
 use nalgebra::DMatrix;
 use readings::{LEAST, explain};
-use shapes::changed;
 
 /// Modal assurance of two test modes from which they are nearly one shape. Two modes of the box, whose masses differ
 /// several hundredfold, have 0.75 with noise of 1 %, and a mode measured twice has 0.99. It does not depend on the
@@ -36,11 +34,34 @@ use shapes::changed;
 pub const NEARLY_SAME: f64 = 0.9;
 /// Singular value of the test shapes, of unit length, below which the points do not distinguish them: orthogonal shapes have one.
 pub const LEAST_SINGULAR: f64 = 0.3;
-/// Tolerance beyond which a percentage was probably meant: a fifth of the frequency, or of the largest component.
-pub const LARGEST_TOLERANCE: f64 = 0.2;
 
 /// Reason why test modes have no partners that could be compared.
 pub(in crate::job) const FEWER: &str = "the model has fewer modes than the test";
+
+/// Names of the sensors, their places from one where they have none, and numbers of test modes.
+#[derive(Debug, Clone, Default)]
+pub struct Names {
+    /// The sensors' names.
+    pub sensors: Vec<String>,
+    /// Places of the test modes in the test's file.
+    pub modes: Vec<usize>,
+    /// The test's file.
+    pub file: String,
+}
+
+impl Names {
+    fn sensor(&self, place: usize) -> String {
+        self.sensors
+            .get(place)
+            .cloned()
+            .unwrap_or_else(|| (place + 1).to_string())
+    }
+
+    /// The number of a test mode in the test's file.
+    fn mode(&self, place: usize) -> usize {
+        self.modes.get(place).map_or(place, |mode| *mode) + 1
+    }
+}
 
 /// True if noise alone, in all but one of a thousand tests, makes one mode differ so much from itself as two test modes do of a modal
 /// assurance $m$. A reading of either differs from the other's by noise of both, so that with the first shape $a$, of unit largest component,
@@ -115,8 +136,6 @@ fn distinct_shapes(
 pub fn preflight_at_sensors(
     seen: &SeenModes,
     (test, noise): (&Modes, &[Noise]),
-    settings: &Settings,
-    ranges: &[Option<Bounds>],
     names: &Names,
 ) -> Result<Vec<Concern>, Error> {
     // A mode measured twice has no second partner. A sensor that drowns all others makes shapes alike, but not frequencies.
@@ -124,8 +143,10 @@ pub fn preflight_at_sensors(
     let once: Vec<usize> = (0..test.len())
         .filter(|mode| !twice.contains(mode))
         .collect();
-    let of_once = once.iter().filter_map(|&mode| noise.get(mode));
-    let of_once: Vec<Noise> = of_once.copied().collect();
+    let of_once: Vec<Noise> = once
+        .iter()
+        .filter_map(|&mode| noise.get(mode).copied())
+        .collect();
     // At one sensor all shapes are alike, and say nothing of partners.
     let is_one = test.shapes.nrows() == 1;
     let is_paired = !is_one && once.len() <= seen.modes.len();
@@ -146,7 +167,7 @@ pub fn preflight_at_sensors(
     }
     let suspected = told.mistake;
     if let Some((change, _)) = &suspected {
-        test.shapes = changed(&test.shapes, change);
+        test.shapes = change.of(&test.shapes);
     }
     concerns.extend(
         told.silent
@@ -159,44 +180,40 @@ pub fn preflight_at_sensors(
     if is_paired {
         let own = test.select(&once);
         let judge = |partners: &[usize]| {
-            let analysis = seen.modes.select(partners).frequencies_hz();
-            exchanged(&own.frequencies_hz(), &analysis, |mode| {
-                names.mode(once[mode])
-            })
+            exchanged(
+                &own.frequencies_hz(),
+                &seen.modes.select(partners).frequencies_hz(),
+                |mode| names.mode(once[mode]),
+            )
         };
-        let assurance = modal_assurance(&seen.modes.shapes, &own.shapes)?;
-        let found = judge(&pair_modes(&assurance)?.analysis_mode);
         // Shapes of two modes may be one at the sensors: what the likely partners do not say too is their mistake.
         let is_told = told.partners.is_none_or(|likely| judge(&likely).is_some());
-        concerns.extend(found.filter(|_| is_told));
+        concerns.extend(
+            judge(&pair_modes(&modal_assurance(&seen.modes.shapes, &own.shapes)?)?.analysis_mode)
+                .filter(|_| is_told),
+        );
     } else {
         let reason = if is_one { alike } else { FEWER };
-        let both = [Check::CommonFactor, Check::OrderOfFrequencies];
-        concerns.extend(both.map(|check| Concern::not_checked(check, reason)));
+        concerns.extend(
+            [Check::CommonFactor, Check::OrderOfFrequencies]
+                .map(|check| Concern::not_checked(check, reason)),
+        );
     }
     concerns.extend(suspected.map(|(change, evidence)| change.concern(evidence, names)));
     let distinct = test.select(&places).shapes;
     if distinct.ncols() > distinct.nrows() {
         concerns.extend(too_many_modes(&distinct)?);
     }
-    concerns.extend(check_settings(settings, ranges, names));
     Ok(concerns)
-}
-
-/// A doubt about a setting that looks like percent.
-pub(in crate::job) fn percent(setting: &str, value: f64) -> Concern {
-    let words = format!(
-        "Setting {setting} is {value}, that is {} %: a percentage where a fraction is meant?",
-        100.0 * value
-    );
-    Concern::doubt(Check::Settings, "percent-", &[setting], words)
 }
 
 /// A remark on test modes whose shapes the points do not distinguish.
 fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Concern>, Error> {
     let (points, modes) = shapes.shape();
-    let overlap = symmetric_part(&cosines(shapes, shapes)?);
-    let (squares, _) = symmetric_eigen("overlap of test modes", &overlap)?;
+    let (squares, _) = symmetric_eigen(
+        "overlap of test modes",
+        &symmetric_part(&cosines(shapes, shapes)?),
+    )?;
     let smallest = squares[0].max(0.0).sqrt();
     let is_distinct = |square: &&f64| **square >= LEAST_SINGULAR.powi(2);
     let distinct = squares.iter().filter(is_distinct).count();
@@ -204,31 +221,5 @@ fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Concern>, Error> {
         "{modes} test modes at {points} points: only {distinct} are told apart, the smallest singular value is {smallest:.3}."
     );
     Ok((distinct < modes)
-        .then(|| Concern::remark(Check::NumberOfModes, "too-many-modes", &[""; 0], words)))
-}
-
-/// Doubts about tolerances that look like percent and about bounds.
-pub(in crate::job) fn check_settings(
-    settings: &Settings,
-    ranges: &[Option<Bounds>],
-    names: &Names,
-) -> Vec<Concern> {
-    let tolerances = [
-        ("inner.tolerance", settings.inner.tolerance),
-        ("later_inner_tolerance", settings.later_inner_tolerance),
-        ("error_sum_tolerance", settings.error_sum_tolerance),
-        ("frequency_tolerance", settings.frequency_tolerance),
-        ("shape_tolerance", settings.shape_tolerance),
-    ];
-    let large = tolerances
-        .into_iter()
-        .filter(|(_, value)| *value > LARGEST_TOLERANCE);
-    let percent = large.map(|(setting, value)| percent(setting, value));
-    let excluding = ranges.iter().enumerate().filter_map(|(parameter, range)| {
-        let Bounds { lower, upper } = range.filter(|range| !range.holds_start())?;
-        let parameter = names.parameter(parameter);
-        let words = format!("Bounds on the factor of parameter {parameter}, {lower} to {upper}, exclude its first value.");
-        Some(Concern::doubt(Check::Settings, "excludes-start-", &[parameter], words))
-    });
-    percent.chain(excluding).collect()
+        .then(|| Concern::remark(Check::NumberOfModes, "too-many-modes", &NONE, words)))
 }

@@ -1,0 +1,226 @@
+//! Doubts about what a job names, before the first analysis, and remarks.
+
+use super::{
+    LoadedJob,
+    concern::{Check, Concern, NONE, listed, numbers, some},
+    sensors::PlacedSensor,
+};
+use crate::{
+    files::deck::{Reason, Unread},
+    method::step::Bounds,
+    weighted::noise::Noise,
+};
+use nalgebra::Vector3;
+
+/// Modal phase collinearity below which a complex test mode is doubtful as a real one.
+const COLLINEAR: f64 = 0.95;
+
+/// Tolerance beyond which a percentage was probably meant: a fifth of the frequency, or of the largest component.
+const LARGEST_TOLERANCE: f64 = 0.2;
+
+/// Deviation of a shape's components, over its largest, from which on it must be meant in percent: noise alone does not leave a shape.
+const PERCENT: f64 = 5.0;
+
+/// Span of the sensors' places over the model's from which they are in another unit: the least factor between two customary units
+/// of length is 2.54, and sensors sit on the structure.
+const LARGEST_SPAN: f64 = 2.0;
+
+/// Part of a coordinate that six digits leave open.
+const PLACE_DIGITS: f64 = 1e-5;
+
+/// Difference of a factor of length from that of its unit, relative to it, that its digits do not explain: an inch is 39.37 or 39.3701 to
+/// a meter.
+const UNIT_DIGITS: f64 = 1e-4;
+
+impl LoadedJob {
+    /// Remarks on complex test modes and on what the readers of the test left aside or did not convert.
+    pub(super) fn data_concerns(&self) -> Vec<Concern> {
+        let (data, check) = (&self.data, Check::Inputs);
+        let complex = data
+            .phase_collinearity
+            .iter()
+            .enumerate()
+            .filter(|(_, phase)| **phase < COLLINEAR)
+            .map(|(mode, phase)| {
+                let mode = mode + 1;
+                Concern::remark(
+                    Check::ComplexShapes,
+                    "complex-",
+                    &[mode],
+                    format!("Test mode {mode} is complex: its phase collinearity is {phase:.2}."),
+                )
+            });
+        let mut all: Vec<Concern> = complex.collect();
+        let rigid = numbers(data.rigid.iter().copied());
+        all.extend(listed(
+            check,
+            "rigid-modes",
+            "Test modes of 0 Hz, rigid-body modes, are not compared",
+            &rigid,
+        ));
+        all.extend(listed(
+            check,
+            "not-in-every-mode",
+            "Sensors left out because some mode of the file has no value at them",
+            &data.incomplete,
+        ));
+        all.extend(listed(
+            check,
+            "datasets-not-read",
+            "Datasets of the Universal File that are not read",
+            &data.skipped,
+        ));
+        let cards = self
+            .source
+            .deck
+            .iter()
+            .flat_map(|(_, deck)| &deck.unread)
+            .filter(|card| card.reason != Reason::WithoutPart);
+        let mut unused: Vec<String> = cards.map(Unread::place).collect();
+        let sensors = self.data.sensors.len() - self.placed.len();
+        unused.extend((sensors > 0).then(|| format!("{sensors} of the test's sensors")));
+        all.extend(listed(check, "not-used", "Not used of the inputs", &unused));
+        // The job chooses by number, and the file has other numbers, or another order.
+        let given = &data.numbers;
+        let is_chosen = self.job.test.modes.is_some() && !given.is_empty();
+        if is_chosen || !given.is_sorted() {
+            let words = format!(
+                "The test's file numbers its modes {}; here they are counted from 1 in the order of the file, in test.modes too.",
+                some(given)
+            );
+            all.push(Concern::doubt(check, "numbered-otherwise", given, words));
+        }
+        match (&data.units, data.lengths_to_meter) {
+            (Some(units), Some([factor, known])) if (factor / known - 1.0).abs() > UNIT_DIGITS => {
+                let words = format!(
+                    "The test's file says that it is in {units}, of {known:.6} to a meter, but its factor of length is {factor:.6}."
+                );
+                all.push(Concern::doubt(
+                    Check::Units,
+                    "units-disagree",
+                    &[units],
+                    words,
+                ));
+            }
+            (Some(_), None) => {
+                all.push(Concern::not_checked(
+                    Check::Units,
+                    "the length of its unit is not known",
+                ));
+            }
+            _ => (),
+        }
+        all
+    }
+
+    /// Doubts about tolerances and standard deviations that look like percent, and about bounds.
+    pub(super) fn setting_concerns(&self) -> Vec<Concern> {
+        let own = &self.job.correlation;
+        let largest = |of: fn(&Noise) -> f64| {
+            self.numbers
+                .iter()
+                .map(|mode| of(&self.deviations(mode - 1)))
+                .fold(0.0, f64::max)
+        };
+        let fractions = [
+            ("frequency_deviation", largest(|noise| noise.frequency)),
+            ("shape_deviation", largest(|noise| noise.shape)),
+            ("inner.tolerance", own.inner.tolerance),
+            ("later_inner_tolerance", own.later_inner_tolerance),
+            ("error_sum_tolerance", own.error_sum_tolerance),
+            ("frequency_tolerance", own.frequency_tolerance),
+            ("shape_tolerance", own.shape_tolerance),
+        ];
+        let percent = fractions
+            .into_iter()
+            .filter(|(_, value)| *value > LARGEST_TOLERANCE).map(|(setting, value)| {
+            let percent = 100.0 * value;
+            if setting == "shape_deviation" && value < PERCENT {
+                let words = format!(
+                    "Setting {setting} is {value}: a standard deviation of {percent} % of a shape's largest component?"
+                );
+                return Concern::remark(Check::Settings, "large-", &[setting], words);
+            }
+            let words = format!(
+                "Setting {setting} is {value}, that is {percent} %: a percentage where a fraction is meant?"
+            );
+            Concern::doubt(Check::Settings, "percent-", &[setting], words)
+        });
+        let excluding = self.parameter_names().zip(self.source.whole.ranges()).filter_map(|(name, range)| {
+            let Bounds { lower, upper } = range.filter(|range| !range.holds_start())?;
+            let words = format!(
+                "Bounds on the factor of parameter {name}, {lower} to {upper}, exclude its first value."
+            );
+            Some(Concern::doubt(Check::Settings, "excludes-start-", &[name], words))
+        });
+        percent.chain(excluding).collect()
+    }
+
+    /// Doubts about places of sensors that span much more than the model does, or that are twice as near to another grid as to the one
+    /// that the test names, unless the job says how far a sensor may be.
+    pub fn places_concerns(&self) -> Vec<Concern> {
+        let check = Check::PlacesOfSensors;
+        let known: Vec<&PlacedSensor> = self
+            .placed
+            .iter()
+            .filter(|own| own.distance.is_some())
+            .collect();
+        if known.is_empty() {
+            return vec![Concern::not_checked(
+                check,
+                "the places of sensors or of their grids are not given",
+            )];
+        }
+        let (mut all, places) = (Vec::new(), self.source.geometry.places.values());
+        let is_elsewhere = |own: &&&PlacedSensor| {
+            let sensor = &self.data.sensors[own.row];
+            let (Some(at), Some(distance)) = (sensor.place, own.distance) else {
+                return false;
+            };
+            // Grids may be close, and sensors stand on a skin.
+            let is_nearer = |place: &Vector3<f64>| 2.0 * (place - at).norm() < distance;
+            let is_off = distance > PLACE_DIGITS * at.amax() && sensor.grid == Some(own.grid);
+            is_off && self.job.sensors.distance.is_none() && places.clone().any(is_nearer)
+        };
+        let elsewhere: Vec<&String> = known
+            .iter()
+            .filter(is_elsewhere)
+            .map(|own| &own.name)
+            .collect();
+        if !elsewhere.is_empty() {
+            let words = format!(
+                "By their places sensors {} are nearer to other grids than to those that they name; is a place, a grid or a unit of length \
+                 wrong? sensors.distance says how far a sensor may be.",
+                some(&elsewhere)
+            );
+            all.push(Concern::doubt(check, "other-grid", &elsewhere, words));
+        }
+        let [test, model] = [
+            span(
+                known
+                    .iter()
+                    .filter_map(|own| self.data.sensors[own.row].place)
+                    .collect(),
+            ),
+            span(places.copied().collect()),
+        ];
+        let ratio = test / model;
+        if ratio > LARGEST_SPAN {
+            let words = format!(
+                "The sensors' places span {ratio:.1} times what the model's do: another unit of length?"
+            );
+            all.push(Concern::doubt(check, "unit-of-places", &NONE, words));
+        }
+        all
+    }
+}
+
+/// The diagonal of the box about some places.
+fn span(places: Vec<Vector3<f64>>) -> f64 {
+    let low = places.iter().copied().reduce(|low, place| low.inf(&place));
+    let high = places
+        .iter()
+        .copied()
+        .reduce(|high, place| high.sup(&place));
+    low.zip(high).map_or(0.0, |(low, high)| (high - low).norm())
+}
