@@ -66,7 +66,6 @@ const BAD_FIELDS: &str = "\
 - | PSHEAR,2,1,.5,,,.5 | 7 | no factors of shear panels | .5
 - | PSHEAR,2,1,.5,,0.,0.,3 | 8 | no factors of shear panels | 3
 - | CROD,2,1,1,2,3 | 6 | a card of its own | 3
-- | PTRMEM,2,1,.5,,3,1,.5,-2. | 9 | a nonstructural mass of zero or more | -2.
 - | CONROD,2,1,2,1,-1. | 6 | a positive real number | -1.
 - | CONROD,2,1,2,1,1.,1 | 7 | a real number | 1
 - | CONROD,2,1,2,1,1.,,,-1. | 9 | a nonstructural mass of zero or more | -1.
