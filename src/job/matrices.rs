@@ -15,8 +15,8 @@ use crate::{
     },
     method::{modes::Modes, structure::StructuralDof},
     sparse::{
-        Factor, Places, SparseMatrix, Support, WholeModel, WholeShare, visibility::open_parts,
-        whole_modes::WholeModes,
+        Factor, HalfUnit, Places, SparseMatrix, Support, WholeModel, WholeShare,
+        visibility::open_parts, whole_modes::WholeModes,
     },
 };
 use nalgebra::{DMatrix, Vector3};
@@ -52,7 +52,7 @@ pub fn from_matrices(job: &Job, stiffness: &Path, mass: &Path) -> Result<ModelSo
         })?;
     }
     let mass = on_rows(job, (mass, "model.mass"), &row_of, count)?;
-    let parts = matrix_parts(job, &row_of, count)?;
+    let parts = matrix_parts(job, &row_of, [&stiffness.matrix, &mass.matrix])?;
     let placed = |dof: &StructuralDof| Some((*places.get(&dof.grid)?, dof.direction));
     let placed: Option<Vec<_>> = labels.iter().map(placed).collect();
     let support = Support {
@@ -79,22 +79,40 @@ pub fn from_matrices(job: &Job, stiffness: &Path, mass: &Path) -> Result<ModelSo
     Ok(source)
 }
 
-/// Parameters by the job's rules of a model whose labels have these rows.
+/// Parameters by the job's rules of a model of this stiffness and mass, whose labels have these rows.
 fn matrix_parts<'a>(
     job: &'a Job,
     row_of: &BTreeMap<StructuralDof, usize>,
-    count: usize,
+    [stiffness, mass]: [&SparseMatrix; 2],
 ) -> Result<Vec<(&'a ParameterRule, Part)>, FileError> {
     let part = |rule: &'a ParameterRule| {
         let entry = format!("parameter \"{}\"", rule.name);
         let of_deck =
             rule.elements.len() + rule.properties.len() + rule.materials.len() + rule.masses.len();
-        let none = || job.refused(format!("{entry} needs a matrix, and no entry of a deck"));
-        let file = rule.matrix.as_ref().filter(|_| of_deck == 0 && !rule.each);
-        let matrix = on_rows(job, (file.ok_or_else(none)?, &entry), row_of, count)?.matrix;
+        let (file, scales, at) = match (&rule.matrix, &rule.stiffness, &rule.mass, rule.at) {
+            _ if of_deck > 0 || rule.each => (None, Scales::default(), None),
+            (Some(file), None, None, None) => (Some(file), rule.scales, None),
+            (None, file, None, at @ Some(_)) => (file.as_ref(), Scales::Stiffness, at),
+            (None, None, file, at @ Some(_)) => (file.as_ref(), Scales::Mass, at),
+            _ => (None, Scales::default(), None),
+        };
+        let none = || {
+            job.refused(format!(
+                "{entry} needs a matrix, or a whole stiffness or mass with the factor at that it has there, and no entry of a deck"
+            ))
+        };
+        let file = file.ok_or_else(none)?;
+        let mut matrix = on_rows(job, (file, &entry), row_of, stiffness.rows())?.matrix;
+        if let Some(at) = at {
+            let first = match scales {
+                Scales::Stiffness => stiffness,
+                Scales::Mass => mass,
+            };
+            matrix = part_of(job, &rule.name, (first, &matrix), at)?;
+        }
         let part = Part {
             name: rule.name.clone(),
-            share: match rule.scales {
+            share: match scales {
                 Scales::Stiffness => WholeShare::Stiffness(matrix),
                 Scales::Mass => WholeShare::Mass(matrix),
             },
@@ -104,6 +122,43 @@ fn matrix_parts<'a>(
         Ok((rule, part))
     };
     job.parameters.iter().map(part).collect()
+}
+
+/// The part of a parameter in the first matrix, $K_e = (K_2 - K)/(c - 1)$, of a second one with its factor at $c$. What the digits of both
+/// do not tell from zero is none.
+fn part_of(
+    job: &Job,
+    name: &str,
+    (first, second): (&SparseMatrix, &SparseMatrix),
+    at: f64,
+) -> Result<SparseMatrix, FileError> {
+    ensure(at != 1.0 && at > 0.0 && at.is_finite(), || {
+        job.refused(format!(
+            "parameter \"{name}\": at = {at} must be positive and another factor than one"
+        ))
+    })?;
+    let mut both: BTreeMap<(usize, usize), [f64; 2]> = BTreeMap::new();
+    for (of, matrix) in [first, second].into_iter().enumerate() {
+        let entries = matrix.entries();
+        entries.for_each(|(row, column, value)| both.entry((row, column)).or_default()[of] = value);
+    }
+    let halves = [first.half_unit(), second.half_unit()];
+    let mut largest = 0.0_f64;
+    let of_place = |(&(row, column), &[one, two]): (&(usize, usize), &[f64; 2])| {
+        let (change, rounded) = ((two - one).abs(), halves[0].of(one) + halves[1].of(two));
+        let is_told = change > rounded;
+        largest = largest.max(if is_told { rounded / change } else { 0.0 });
+        is_told.then_some((row, column, (two - one) / (at - 1.0)))
+    };
+    let entries: Vec<_> = both.iter().filter_map(of_place).collect();
+    ensure(!entries.is_empty(), || {
+        job.refused(format!(
+            "parameter \"{name}\": the digits of the files do not tell the matrix at {at} from the model's; write more digits, or take \
+             another factor"
+        ))
+    })?;
+    let part = SparseMatrix::new("part of a parameter", first.rows(), first.rows(), entries)?;
+    Ok(part.with_half_unit(HalfUnit::of_each(largest)))
 }
 
 /// The `most` lowest vibrations of a structure given by its stiffness and mass, or all of finite frequency; `#` in a file's name

@@ -155,6 +155,11 @@ struct ParameterRule {
     #[serde(default)]
     masses: Vec<Labels>,
     matrix: Option<PathBuf>,
+    /// The whole model's stiffness or mass with the parameter at another factor.
+    stiffness: Option<PathBuf>,
+    mass: Option<PathBuf>,
+    /// Factor that it has there.
+    at: Option<f64>,
     #[serde(default)]
     scales: Scales,
     #[serde(default)]
@@ -299,7 +304,11 @@ impl Job {
             &self.model.rows,
         ]
         .into_iter()
-        .chain(self.parameters.iter().map(|rule| &rule.matrix))
+        .chain(
+            self.parameters
+                .iter()
+                .flat_map(|rule| [&rule.matrix, &rule.stiffness, &rule.mass]),
+        )
         .flatten();
         named.chain(&self.test.file).chain(&self.test.repeats)
     }

@@ -180,7 +180,7 @@ fn cell(draws: &mut Draws, [kind, held, count, way, digits]: [usize; 5]) -> bool
     let elements = 6 + draws.below(25);
     let (parts, suspended) = parts(draws, kind, elements, is_held, count);
     let truth = (0..=count).map(|_| draws.between(0.8, 1.25)).collect_vec();
-    let scaled = way;
+    let scaled = usize::from(way == 2);
     let real = whole(&parts, |part, which| match part > 0 && which == scaled {
         true => truth[part],
         false => 1.0,
@@ -236,6 +236,7 @@ fn cell(draws: &mut Draws, [kind, held, count, way, digits]: [usize; 5]) -> bool
     };
     let of_part = |own: &[DMatrix<f64>; 2]| match way {
         0 => ("matrix", own[0].clone()),
+        1 => ("at = 2.0\nstiffness", &first[0] + &own[0]),
         _ => ("scales = \"mass\"\nmatrix", own[1].clone()),
     };
     let (_folder, job) = placed(&job(&first, parts[1..].iter().map(of_part), &data, write));
@@ -278,7 +279,7 @@ fn cell(draws: &mut Draws, [kind, held, count, way, digits]: [usize; 5]) -> bool
 
 /// The table of laws, every `step`th of its cells: right within what the digits allow, or told; never refused, and no other doubt.
 fn table(step: usize) {
-    let sizes = [STRUCTURES.len(), 2, 3, 2, DIGITS.len()];
+    let sizes = [STRUCTURES.len(), 2, 3, 3, DIGITS.len()];
     let (mut told, mut wrong) = (0, Vec::new());
     let all = sizes.iter().product::<usize>();
     for at in (0..all).step_by(step) {

@@ -144,6 +144,70 @@ fn rigid_modes_of_a_test_are_left_out_and_said() {
     );
 }
 
+fn matrix(text: &str, wanted: Option<&str>) -> Result<DMatrix<f64>, String> {
+    let found = matrices::read("K", text.as_bytes(), wanted);
+    found
+        .map(|found| found.matrix.dense())
+        .map_err(|error| error.to_string())
+}
+
+/// The stiffness of the building with its first story `at` times as stiff.
+fn with_second(at: f64, digits: usize) -> Files {
+    let files = building();
+    let of = |name: &str| {
+        let text = &files.iter().find(|file| file.0 == name).unwrap().1;
+        matrix(text, None).unwrap()
+    };
+    let second = of("stiffness.mtx") + (at - 1.0) * of("story_1.mtx");
+    let mut text = "%%MatrixMarket matrix array real general\n10 10\n".to_owned();
+    second
+        .iter()
+        .for_each(|value| text += &format!("{value:.digits$e}\n"));
+    let rule = format!("stiffness = \"second.mtx\"\nat = {at:?}");
+    let mut files = with(files, "job.toml", "matrix = \"story_1.mtx\"", &rule);
+    files.push(("second.mtx".to_owned(), text));
+    files
+}
+
+#[test]
+fn a_parameter_may_be_a_second_whole_matrix() {
+    let factors = |files: &Files| {
+        let prepared = prepared(files);
+        finished(&prepared).found.factors
+    };
+    let expected = factors(&building());
+    for at in [1.1, 0.5] {
+        for (found, expected) in factors(&with_second(at, 16)).iter().zip(&expected) {
+            assert!(
+                relative_error(found, expected) < 100.0 * MATRIX_ROUND_OFF,
+                "{found} {expected}"
+            );
+        }
+    }
+    let same = said(&with_second(1.000_000_1, 3));
+    assert!(
+        same.contains("the digits of the files do not tell the matrix at 1.0000001"),
+        "{same}"
+    );
+    for at in ["1.0", "-2.0"] {
+        let error = said(&with(
+            with_second(1.1, 16),
+            "job.toml",
+            "at = 1.1",
+            &format!("at = {at}"),
+        ));
+        assert!(
+            error.contains("must be positive and another factor than one"),
+            "{error}"
+        );
+    }
+    let without = said(&with(with_second(1.1, 16), "job.toml", "at = 1.1", ""));
+    assert!(
+        without.contains("needs a matrix, or a whole stiffness or mass with the factor at"),
+        "{without}"
+    );
+}
+
 #[test]
 fn a_number_sign_may_be_part_of_a_files_name() {
     let mut files = with(building(), "job.toml", "\"stiffness.mtx\"", "\"run#3.mtx\"");
