@@ -374,31 +374,18 @@ impl WholeModel {
         pair: Pair,
         size: BasisSize,
     ) -> Result<SensorModel, Error> {
-        let model = self.analyze_near(factors, sensors, test, pair, size, None)?;
-        match size.residual_vectors {
-            0 => model.with_slopes(),
-            _ => Ok(model),
-        }
-    }
-
-    /// The analysis of [`Self::analyze`] without slopes, its modes sought from shapes `near` them.
-    pub(crate) fn analyze_near(
-        &self,
-        factors: &[f64],
-        sensors: &SparseMatrix,
-        test: &Modes,
-        pair: Pair,
-        size: BasisSize,
-        near: Option<&DMatrix<f64>>,
-    ) -> Result<SensorModel, Error> {
         // Only exact slopes want more modes than the basis has.
         let most = match size.residual_vectors {
             0 => size.modes.max(2 * test.len()),
             _ => size.modes,
         };
-        let whole = self.exactly(factors, sensors, size.modes..=most, near)?;
+        let whole = self.exactly(factors, sensors, size.modes..=most, None)?;
         let deflections = Deflections::Each(size.residual_vectors);
-        SensorModel::of_whole(whole, size.modes, test, pair, deflections)
+        let model = SensorModel::of_whole(whole, size.modes, test, pair, deflections)?;
+        match size.residual_vectors {
+            0 => model.with_slopes(),
+            _ => Ok(model),
+        }
     }
 
     /// Exact analysis seen by sensors that further looks can be taken at, with at least and at most so many modes, sought from shapes
