@@ -14,6 +14,8 @@ const NOTHING: f64 = 1e-8;
 const SAME: f64 = 1e-8;
 /// Standard deviations of a rounding that none exceeds.
 const RARE: f64 = 4.0;
+/// Part of a mode's stiffness or mass of which twice as much moves no frequency by half a percent, the deviation that is assumed of one.
+const UNSEEN: f64 = 0.01;
 
 /// Every mode's visibility, from zero to one: the largest part that a reading of it (sensors × n, unit mass) is of what this sensor reads
 /// of any mode, $\nu = \max_s \lvert (S v)_s \rvert / r_s$. A sensor that reads next to nothing of all is no measure: no $r_s$ is below
@@ -180,8 +182,9 @@ pub(crate) fn open_parts(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<Ve
     Ok(parts.as_slice().to_vec())
 }
 
-/// A share at a factor, in modes of unit generalized mass, that is nothing of a mode in which the digits of its matrix make it negative: a
-/// part is semidefinite, and steps would soften the mode by making the part stiffer.
+/// A share at a factor, in modes of unit generalized mass, that is nothing of a mode in which the digits of its matrix make it negative and
+/// that is no more than [`UNSEEN`] of the mode: a part is semidefinite, and steps would soften the mode by making the part stiffer. Of a larger
+/// one the digits leave the frequency itself open, which has so little weight.
 ///
 /// # Errors
 /// [`Error::WrongShape`] for matrices that do not fit.
@@ -196,7 +199,12 @@ pub(super) fn told(
         let open = deviation(&share.matrix().half_units(), &modes.shapes)?;
         for mode in 0..own.nrows() {
             let part = own[(mode, mode)];
-            if part < 0.0 && -part < RARE * factor * open[(mode, mode)] {
+            let whole = match share {
+                Share::Stiffness(_) => modes.omega_squared[mode],
+                Share::Mass(_) => 1.0,
+            };
+            let open = RARE * factor * open[(mode, mode)];
+            if part < 0.0 && -part < open.min(UNSEEN * whole) {
                 own[(mode, mode)] = 0.0;
             }
         }
