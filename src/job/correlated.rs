@@ -286,14 +286,17 @@ impl PreparedJob {
         for _ in 0..MOST_LEFT {
             // A minimum that noise does not explain is not the truth's.
             let is_doubted = !Misfit::of(&run.last, &weights, &source.priors, &[])?.is_by_noise();
-            let basis = run
-                .last
-                .with_model(run.last.model.in_basis(Deflections::All(
-                    2 * self.modes.len() + ranges.len().min(MOST_DEFLECTIONS),
-                ))?);
-            let follow = &mut |at: &[f64]| match source.whole.dof_count() <= MOST_ROWS {
-                true => self.analyze(at),
-                false => basis.about(&run.factors)(at),
+            let size = 2 * self.modes.len() + ranges.len().min(MOST_DEFLECTIONS);
+            let basis = match source.whole.dof_count() <= MOST_ROWS {
+                true => None,
+                false => Some(
+                    run.last
+                        .with_model(run.last.model.in_basis(Deflections::All(size))?),
+                ),
+            };
+            let follow = &mut |at: &[f64]| match &basis {
+                None => self.analyze(at),
+                Some(basis) => basis.about(&run.factors)(at),
             };
             let Some(place) =
                 lower_place(&run, follow, &ranges, &weights, &settings, seed, is_doubted)?

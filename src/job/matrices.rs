@@ -96,12 +96,11 @@ fn matrix_parts<'a>(
             (None, None, file, at @ Some(_)) => (file.as_ref(), Scales::Mass, at),
             _ => (None, Scales::default(), None),
         };
-        let none = || {
+        let file = file.ok_or_else(|| {
             job.refused(format!(
                 "{entry} needs a matrix, or a whole stiffness or mass with the factor at that it has there, and no entry of a deck"
             ))
-        };
-        let file = file.ok_or_else(none)?;
+        })?;
         let mut matrix = on_rows(job, (file, &entry), row_of, stiffness.rows())?.matrix;
         if let Some(at) = at {
             let first = match scales {
@@ -110,16 +109,18 @@ fn matrix_parts<'a>(
             };
             matrix = part_of(job, &rule.name, (first, &matrix), at)?;
         }
-        let part = Part {
-            name: rule.name.clone(),
-            share: match scales {
-                Scales::Stiffness => WholeShare::Stiffness(matrix),
-                Scales::Mass => WholeShare::Mass(matrix),
+        Ok((
+            rule,
+            Part {
+                name: rule.name.clone(),
+                share: match scales {
+                    Scales::Stiffness => WholeShare::Stiffness(matrix),
+                    Scales::Mass => WholeShare::Mass(matrix),
+                },
+                members: Members::default(),
+                sizes: Vec::new(),
             },
-            members: Members::default(),
-            sizes: Vec::new(),
-        };
-        Ok((rule, part))
+        ))
     };
     job.parameters.iter().map(part).collect()
 }
@@ -139,8 +140,9 @@ fn part_of(
     })?;
     let mut both: BTreeMap<(usize, usize), [f64; 2]> = BTreeMap::new();
     for (of, matrix) in [first, second].into_iter().enumerate() {
-        let entries = matrix.entries();
-        entries.for_each(|(row, column, value)| both.entry((row, column)).or_default()[of] = value);
+        for (row, column, value) in matrix.entries() {
+            both.entry((row, column)).or_default()[of] = value;
+        }
     }
     let halves = [first.half_unit(), second.half_unit()];
     let mut largest = 0.0_f64;
@@ -157,8 +159,10 @@ fn part_of(
              another factor"
         ))
     })?;
-    let part = SparseMatrix::new("part of a parameter", first.rows(), first.rows(), entries)?;
-    Ok(part.with_half_unit(HalfUnit::of_each(largest)))
+    Ok(
+        SparseMatrix::new("part of a parameter", first.rows(), first.rows(), entries)?
+            .with_half_unit(HalfUnit::of_each(largest)),
+    )
 }
 
 /// The `most` lowest vibrations of a structure given by its stiffness and mass, or all of finite frequency; `#` in a file's name

@@ -16,7 +16,6 @@ mod likelihood;
 #[doc(hidden)]
 pub mod localization;
 mod matrices;
-#[doc(hidden)]
 mod model;
 mod next_measurement;
 mod parts;

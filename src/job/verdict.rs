@@ -4,15 +4,12 @@ use crate::method::error_sum::{Errors, ModeError};
 use crate::method::inner_loop::Stop;
 use crate::method::outer_loop::Correlation;
 use crate::method::step::Bounds;
+use crate::sparse::UNSEEN_SHARE;
 use crate::torque_box::CaseResult;
 use crate::weighted::comparison::ModeErrors;
 use crate::weighted::intervals::is_at_end;
 use crate::weighted::lower_place::PLACES;
 use serde::Serialize;
-
-/// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
-/// would move no frequency by half a percent.
-pub const UNSEEN_SHARE: f64 = 0.01;
 
 /// End of a correlation, or of a part of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -10,7 +10,7 @@ use super::table::Digits;
 use crate::files::test_data::DIRECTIONS;
 use crate::job::concern::{Answered, some};
 use crate::job::verdict::End;
-use crate::job::{History, JobResult, LoadedJob, PlacedSensor, PreparedJob, Trust};
+use crate::job::{HeldOut, History, JobResult, LoadedJob, PlacedSensor, PreparedJob, Trust};
 use crate::method::error::Error;
 use crate::method::step::Bounds;
 use crate::sparse::{WholeParameter, Work};
@@ -160,12 +160,13 @@ impl Report {
         let (first, last) = (found.first.result()?, found.last.result()?);
         let mass = prepared.mass_at_sensors(&found.last);
         let compared = prepared.compared_with(&first, &last, mass.as_ref());
-        let errors = compared.errors(&found.held_out()?);
+        let held = found.held_out()?;
+        let errors = compared.errors(&held);
         let parameters = parameters(result);
         let sensors = loaded.placed.iter().map(|sensor| sensor.name.clone());
         let mut readings = compared.readings(&sensors.collect::<Vec<_>>())?;
         let mut modes = compared.modes()?;
-        add_residuals(result, &mut modes, &mut readings)?;
+        add_residuals(result, &held, &mut modes, &mut readings)?;
         let (minima, starts) = match &found.history {
             History::GaussNewton(Some(all)) => (all.minima.clone(), all.starts.clone()),
             _ => Default::default(),
@@ -280,6 +281,7 @@ fn parameters(result: &JobResult) -> Vec<Parameter> {
 /// Fills in the residuals of frequencies and shapes at the best factors, and the mark of every mode.
 fn add_residuals(
     result: &JobResult,
+    held: &[HeldOut],
     modes: &mut [Mode],
     readings: &mut [Reading],
 ) -> Result<(), PresentError> {
@@ -289,7 +291,6 @@ fn add_residuals(
     if let Some(predicted) = &result.predicted {
         all += &predicted.residuals;
     }
-    let held = found.held_out()?;
     let sensors = prepared.loaded.placed.len();
     let (mut left, mut readings) = (all.as_slice(), readings.chunks_mut(sensors.max(1)));
     for (mode, weight) in modes.iter_mut().zip(weights) {

@@ -43,7 +43,7 @@ pub(crate) use place::{Deflections, Place, is_held};
 pub use rigid_bodies::{BodyFinding, Places, RigidBodies, Support};
 pub use sensor_model::{Candidates, ModeWeight, Pair, SensorModel};
 pub(crate) use sensor_model::{check_weights, is_one_root, parts_of};
-pub use share::{ParameterMatrix, Share, WholeShare};
+pub use share::{ParameterMatrix, Share, UNSEEN_SHARE, WholeShare};
 pub use whole_model::{BasisSize, WholeModel, WholeParameter};
 
 use crate::method::modes::Modes;

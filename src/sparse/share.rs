@@ -4,6 +4,10 @@ use super::SparseMatrix;
 use crate::method::error::Error;
 use nalgebra::DMatrix;
 
+/// Largest part of a test mode's generalized stiffness (or mass) below which a parameter counts as unseen: twice as much of it
+/// would move no frequency by half a percent.
+pub const UNSEEN_SHARE: f64 = 0.01;
+
 /// Part of the stiffness or mass that one parameter scales.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Share<M> {

@@ -1,7 +1,7 @@
 //! Modes that sensors see, and those that exist for nobody.
 
 use super::matrix::ASSEMBLED;
-use super::{ParameterMatrix, Share, SparseMatrix, WholeShare};
+use super::{ParameterMatrix, Share, SparseMatrix, UNSEEN_SHARE, WholeShare};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use nalgebra::{DMatrix, DVector, DVectorView};
@@ -14,8 +14,6 @@ const NOTHING: f64 = 1e-8;
 const SAME: f64 = 1e-8;
 /// Standard deviations of a rounding that none exceeds.
 const RARE: f64 = 4.0;
-/// Part of a mode's stiffness or mass of which twice as much moves no frequency by half a percent, the deviation that is assumed of one.
-const UNSEEN: f64 = 0.01;
 
 /// Every mode's visibility, from zero to one: the largest part that a reading of it (sensors × n, unit mass) is of what this sensor reads
 /// of any mode, $\nu = \max_s \lvert (S v)_s \rvert / r_s$. A sensor that reads next to nothing of all is no measure: no $r_s$ is below
@@ -183,7 +181,7 @@ pub(crate) fn open_parts(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<Ve
 }
 
 /// A share at a factor, in modes of unit generalized mass, that is nothing of a mode in which the digits of its matrix make it negative and
-/// that is no more than [`UNSEEN`] of the mode: a part is semidefinite, and steps would soften the mode by making the part stiffer. Of a larger
+/// that is no more than [`UNSEEN_SHARE`] of the mode: a part is semidefinite, and steps would soften the mode by making the part stiffer. Of a larger
 /// one the digits leave the frequency itself open, which has so little weight.
 ///
 /// # Errors
@@ -194,17 +192,17 @@ pub(super) fn told(
     share: &WholeShare,
     modes: &Modes,
 ) -> Result<ParameterMatrix, Error> {
-    let (Share::Stiffness(own) | Share::Mass(own)) = &mut seen;
-    if share.matrix().half_unit().is_written() {
-        let open = deviation(&share.matrix().half_units(), &modes.shapes)?;
-        for mode in 0..own.nrows() {
-            let part = own[(mode, mode)];
-            let whole = match share {
-                Share::Stiffness(_) => modes.omega_squared[mode],
-                Share::Mass(_) => 1.0,
-            };
-            let open = RARE * factor * open[(mode, mode)];
-            if part < 0.0 && -part < open.min(UNSEEN * whole) {
+    let is_unseen = |mode: &usize| {
+        let part = seen.part(*mode, modes.omega_squared[*mode]);
+        part < 0.0 && -part < UNSEEN_SHARE
+    };
+    let negative: Vec<usize> = (0..seen.matrix().nrows()).filter(is_unseen).collect();
+    if share.matrix().half_unit().is_written() && !negative.is_empty() {
+        let shapes = modes.shapes.select_columns(&negative);
+        let open = deviation(&share.matrix().half_units(), &shapes)?;
+        let (Share::Stiffness(own) | Share::Mass(own)) = &mut seen;
+        for (at, &mode) in negative.iter().enumerate() {
+            if -own[(mode, mode)] < RARE * factor * open[(at, at)] {
                 own[(mode, mode)] = 0.0;
             }
         }
