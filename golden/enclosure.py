@@ -12,7 +12,7 @@ diagonal, and in every change of the error sum relative to the sum. What comes o
 number, how much one rounding counts; the crate's distance is held to it (tests/evidence/enclosed.rs).
 
 Proven is what the written method gives from these decimals. That the method is the paper's, and the box the one that was tested,
-is another matter (paper/interpretation.md, paper/reconstruction.md).
+is another matter (paper/print_and_box.md).
 """
 import functools
 import json

@@ -30,7 +30,7 @@
 //! - [`files`]: NASTRAN decks, matrices, tests.
 //! - [`job`]: a user's structure, from its files to the corrected model and its [`verdict`](job::verdict), with a pre-flight that
 //!   names mistakes in model and test before the first step.
-//! - [`tour`]: eleven chapters that teach the method, with code that runs. Read this first if the paper is new to you.
+//! - [`tour`]: twelve chapters that teach the method, with code that runs. Read this first if the paper is new to you.
 //! - [`specification`]: every equation on one page, with its tests and the wrong forms that they notice.
 //! - `present` and the program `corfem`, with the feature `program`: tables, figures, a page, commands. How the paper's own cases are
 //!   shown stands beside the paper, in `paper/presentation`.
@@ -69,7 +69,7 @@
 //!
 //! Numbers in parentheses such as (13) or (C.22) are the paper's equations. $K$ is stiffness, $M$ mass, $V$ mode
 //! shapes with $V^t M V = I$, $\lambda = 1/\omega^2$ the root of Appendix C, $\beta = V^t \Delta K V$.
-//! `paper/errata.md` lists where print or scan is wrong, `paper/interpretation.md` where the text leaves a choice.
+//! `paper/errata.md` lists where print or scan is wrong, `paper/print_and_box.md` where the text leaves a choice.
 //!
 #![doc = include_str!("../paper/library.md")]
 #![deny(missing_docs)]

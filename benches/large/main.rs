@@ -3,12 +3,11 @@
 //! `cargo bench --bench large` measures the two smallest of the wings, `cargo bench --bench large -- 1k 10k 100k 1M` those
 //! named. With `--write FOLDER` the problems are written there for other programs, which do the same in the same run: `--scipy python3`
 //! starts `benches/scipy_wing.py` with SciPy's SuperLU and with MKL's PARDISO, `--cholmod cc` compiles and starts
-//! `benches/cholmod_wing.c`. With `--store paper/costs.csv` what was measured replaces the wing's whole column there, and the tables of
-//! `paper/cost.md` follow by `CORFEM_WRITE=1 cargo test`.
+//! `benches/cholmod_wing.c`. With `--store paper/costs.csv` what was measured replaces the wing's whole column there.
 
-#[path = "../../paper/studies/known/mod.rs"]
+#[path = "../wing/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the tests use the rest")]
-mod known;
+mod wing;
 #[path = "../../tests/common/fill.rs"]
 mod fill;
 mod machine;
@@ -17,10 +16,10 @@ mod numpy;
 mod rivals;
 mod stages;
 
-use known::wing::{MESHES, Wing};
 use rivals::{Cost, Rivals};
 use stages::Stages;
 use std::path::{Path, PathBuf};
+use wing::{MESHES, Wing};
 
 fn main() {
     let mut arguments = std::env::args()

@@ -1,10 +1,9 @@
 //! What is timed: a correlation's stages one by one, each through the library's own functions.
 
 use crate::fill::{self, Fill};
-use crate::known::planted_factors;
-use crate::known::wing::Wing;
 use crate::machine::Machine;
 use crate::memory::peak;
+use crate::wing::{Wing, planted_factors};
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_a::{ElementMatrix, element_matrices};
 use corfem::method::modes::Modes;

@@ -2,9 +2,9 @@
 //! `cargo bench --bench stages -- --instructions`, which asks valgrind to count them: times of microseconds are noise from one
 //! machine and day to the next, counts are not. Where there is no valgrind it says so and ends.
 
-#[path = "../../paper/studies/known/mod.rs"]
+#[path = "../wing/mod.rs"]
 #[allow(dead_code, unused_imports, reason = "the tests use the rest")]
-mod known;
+mod wing;
 mod problem;
 
 use criterion::Criterion;

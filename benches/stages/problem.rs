@@ -1,14 +1,12 @@
 //! Every stage of a pass, ready to be done again: of the paper's box, and of the wing of 1,458 structural DOF.
 
-use crate::known::delta_wing::correlation;
-use crate::known::eigensolved::Eigensolved;
-use crate::known::planted;
-use crate::known::wing::Wing;
+use crate::wing::{Wing, planted_factors};
 use corfem::method::analysis::Analysis;
 use corfem::method::appendix_a::{ElementMatrix, element_matrices};
 use corfem::method::inner_loop::{InnerSettings, run};
 use corfem::method::model::FiniteElementModel;
 use corfem::method::modes::{Modes, solve};
+use corfem::method::step::StepRule;
 use corfem::torque_box::Case;
 use std::hint::black_box;
 
@@ -29,16 +27,15 @@ fn problem(structure: &str) -> (FiniteElementModel, Modes, usize, InnerSettings)
             case.settings.inner,
         );
     }
-    let known = planted(&Wing::default()).expect("a wing");
-    (
-        known.model.0,
-        known.test,
-        10,
-        InnerSettings {
-            tolerance: 0.05,
-            ..correlation::settings().inner
-        },
-    )
+    let model = Wing::default().model().expect("a wing");
+    let truth = planted_factors(model.parameters().len());
+    let test = model.modes(&truth).and_then(|all| all.lowest(10));
+    let settings = InnerSettings {
+        tolerance: 0.05,
+        step: StepRule::Own,
+        ..InnerSettings::default()
+    };
+    (model, test.expect("modes"), 10, settings)
 }
 
 fn stage<T: 'static>(name: &'static str, work: impl Fn() -> T + 'static) -> Stage {
@@ -55,13 +52,8 @@ pub fn stages(structure: &str) -> Vec<Stage> {
     let condensed = model.condense(ones).expect("it condenses");
     let analyze = move || model.analyze(ones, test, Some(modes)).expect("analyzed");
     let modal = &*Box::leak(Box::new(analyze()));
-    // The wing's modes come from an eigensolution in modal coordinates, as in every scenario of its settings.
-    let analysis: &'static dyn Analysis = match structure {
-        "box" => modal,
-        _ => Box::leak(Box::new(Eigensolved(modal.clone()))),
-    };
     let ranges = model.factor_ranges().expect("bounds");
-    let inner = move || run(analysis, ones, &ranges, &settings).expect("it runs");
+    let inner = move || run(modal, ones, &ranges, &settings).expect("it runs");
     let factors = inner().factors;
     let pass = inner.clone();
     vec![

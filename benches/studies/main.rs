@@ -14,24 +14,23 @@ mod common;
 use common::prelude;
 use common::presentation::paper;
 use common::presentation::paper::figures::Figure;
-use common::presentation::studies::counted_figures::counted_figures;
+use common::presentation::studies::STUDIES;
 use common::presentation::studies::tour_figures::figures;
-use common::presentation::studies::{LONG, QUICK};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Cargo names what it runs.
     let asked: Vec<String> = std::env::args().skip(1).collect();
     let asked: Vec<&String> = asked.iter().filter(|name| *name != "--bench").collect();
-    let all = || QUICK.iter().chain(&LONG);
-    let drawn = || figures().into_iter().chain(counted_figures());
+    let all = || STUDIES.iter();
+    let drawn = || figures().into_iter();
     if asked.is_empty() {
         all().for_each(|(name, _)| println!("{name}"));
         drawn().for_each(|(name, _)| println!("{name}"));
     }
     for name in asked {
-        if let Some((_, text)) = all().find(|(own, _)| own == name) {
-            print!("{}", text()?);
+        if let Some((_, tables)) = all().find(|(own, _)| own == name) {
+            print!("{}", prelude::csv(&tables()));
             continue;
         }
         let found = drawn().find(|(own, _)| own == name);

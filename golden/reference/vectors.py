@@ -316,7 +316,7 @@ VECTORS = []
 
 
 # The chapter of the tour that explains a function, or both where two do.
-CHAPTERS = dict(modes=1, recursive_1=2, settled=2, general=2, left_and_right=2, comparison=3, sorting=3, state_and_step=[4, 5], limited_step=6, tolerances=6, one_pass=6, analysis=7, box_loads=8, appendix_b=10, examine=10)
+CHAPTERS = dict(modes=1, recursive_1=2, settled=2, general=2, left_and_right=2, comparison=3, sorting=3, state_and_step=[4, 5], limited_step=6, tolerances=6, one_pass=6, elements=12, analysis=7, box_loads=8, appendix_b=10, examine=10)
 
 
 def vector(name, function, equations, given, answer, tolerance=SAME, sentences=(), mistakes=(), chapter=None):
@@ -451,11 +451,12 @@ def state_and_step():
     test_w, test_v = modes(kd, m)
     test_w, test_v = rounded(test_w, 8), rounded(test_v, 8)
     _, kd, _, shares, m = analysis(given, np.ones(count))
+    kd, shares, m = rounded(kd, 10), rounded(shares, 10), rounded(m, 10)
     problem = Problem(kd, shares, m, test_w, test_v)
     factors = drawn(0.95, 1.08, count)
     state = problem.at(factors)
     ones = np.ones(count)
-    vector("state, derivatives and step", "state_and_step", ["9", "10", "11", "12", "13"], dict(structure=given, test_omega_squared=test_w, test_shapes=test_v, factors=factors), dict(
+    vector("state, derivatives and step", "state_and_step", ["9", "10", "11", "12", "13"], dict(stiffness=kd, mass=m, shares=shares, test_omega_squared=test_w, test_shapes=test_v, factors=factors), dict(
         omega_squared=state[0], shapes=state[1], frequencies_hz=np.sqrt(state[0]) / (2 * np.pi), error_sum=problem.sum(*state),
         error_changes=problem.error_changes(state, factors), stiffness_changes=problem.stiffness_changes(factors),
         diagonal_stiffness_changes=problem.stiffness_changes(factors, True), unlimited_factors=problem.unlimited(state, factors, 1.0),
@@ -692,6 +693,15 @@ def deletion():
     sentence(["balancing", "deletion"], "balancing before deletion", "examine", given, examined, {"orthogonalized as they came": dict(as_they_came=True)})
 
 
+def three_elements():
+    """A rod, and a panel out of plane as a shear panel and as a membrane, of unit area and thickness."""
+    e, nu = 1.0e7, 0.3
+    ends = np.array([[1.0, 2.0, 0.5], [5.0, 4.0, 4.5]])
+    corners = np.array([[0.0, 0.0, 0.1], [8.0, 1.0, -0.1], [7.0, 6.0, 0.1], [1.0, 5.0, -0.1]])
+    vector("three elements", "elements", ["A.1"], dict(youngs_modulus=e, poissons_ratio=nu, ends=ends, corners=corners), dict(
+        rod=rod(ends[0], ends[1], 1.0, e), shear=shear_panel(corners, e / (2 * (1 + nu)), nu), membrane=qdmem(corners, 1.0, e, nu)))
+
+
 # What must be refused.
 
 def recursions_refused():
@@ -743,7 +753,7 @@ def matrices_refused():
 
 def main():
     for write in (condensation, box_loads, eigensolution, comparison, recursions, left_and_right, state_and_step, appendix_b, random_structures, unsymmetric_recursions,
-                  mistyped_gage, several_passes, settled_recursion, sorting, limits, tolerances, deletion, recursions_refused, matrices_refused):
+                  mistyped_gage, several_passes, three_elements, settled_recursion, sorting, limits, tolerances, deletion, recursions_refused, matrices_refused):
         write()
     lines = ",\n".join(json.dumps(entry, separators=(",", ":")) for entry in VECTORS)
     (HERE.parent / "vectors.json").write_text(f'{{"written_by":"golden/reference/vectors.py","vectors":[\n{lines}\n]}}\n')

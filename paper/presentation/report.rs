@@ -155,4 +155,20 @@ impl<'a> CaseReport<'a> {
         let data = json!({"drawing": drawing, "modes": modes, "parameters": parameters, "readings": readings});
         Ok(moving(&in_script(&data)?))
     }
+
+    /// The charts that the page of a job has: factors, frequencies, modal assurance before and after, derivatives.
+    ///
+    /// # Errors
+    /// Those of the model and its analysis.
+    pub fn charts(&self) -> Result<String, PresentError> {
+        let compared = self.compared();
+        let data = in_script(&json!({
+            "parameters": self.parameters(),
+            "modes": compared.modes()?,
+            "first": compared.agreement(&self.first)?,
+            "corrected": compared.agreement(&self.last)?,
+            "derivatives": self.derivatives()?,
+        }))?;
+        Ok(format!("<script>charts({data})</script>\n"))
+    }
 }

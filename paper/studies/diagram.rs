@@ -1,75 +1,42 @@
 //! Diagrams of documents: a few series over two axes, drawn as the report's figures are.
 
 use crate::paper::figures::canvas::{
-    Area, BLUE, Dash, Drawn, Form, GRAY, INK, KEY, LINE, Mark, Named, ORANGE, Pen, SKY, VERMILION,
-    axes, chart, corners, line, mark, name_ends, name_upright, placed, polygon, svg,
+    BLUE, Dash, Form, GRAY, INK, KEY, LINE, MIDDLE, Mark, Named, ORANGE, PALE, Pen, SKY, VERMILION,
+    WIDE, corners, line, mark, name_ends, name_upright, polygon, svg, write,
 };
-use crate::paper::figures::chart::Chart;
 use crate::prelude::*;
-use plotters::coord::ranged1d::ValueFormatter;
-use plotters::prelude::*;
+use plotters::style::RGBColor;
 
 /// Drawing style of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SeriesMark {
-    /// A line through the points.
-    Line,
-    /// A dashed one.
-    Dashed,
+pub enum Drawn {
+    /// Lines through the points, broken at a point that is no number.
+    Lines(Dash),
     /// A dot at every point.
     Dots,
-    /// A bar to every point, from zero or from the lower end of a logarithmic axis.
+    /// A bar to every point from zero.
     Bars,
 }
 
-/// Points drawn together, with their name.
-#[derive(Debug, Clone)]
-pub struct Series {
-    /// Name of the series; empty for one that continues the series before.
-    pub name: &'static str,
-    /// Drawing style.
-    pub mark: SeriesMark,
-    /// Points of the series.
-    pub points: Vec<(f64, f64)>,
-}
+/// Name, drawing style and points of a series.
+pub type Series = (&'static str, Drawn, Vec<(f64, f64)>);
 
-impl Series {
-    /// A series of these points.
-    pub fn new(
-        name: &'static str,
-        mark: SeriesMark,
-        points: impl IntoIterator<Item = (f64, f64)>,
-    ) -> Self {
-        let points = points.into_iter().collect();
-        Self { name, mark, points }
-    }
-}
-
-/// A diagram: the names and ends of its axes, and its series.
+/// A diagram: its subject, the names of its axes across and up, and its series.
+///
+/// Of each axis the first, second and last number are given; the one up is logarithmic over three powers of ten and more.
 #[derive(Debug, Clone)]
-pub struct Diagram {
-    /// Subject of the diagram.
-    pub title: &'static str,
-    /// Names of its axes, across and up.
-    pub labels: [&'static str; 2],
-    /// Ends of the axis across.
-    pub x: (f64, f64),
-    /// Ends of the axis up.
-    pub y: (f64, f64),
-    /// True if the axis up is logarithmic.
-    pub is_logarithmic: bool,
-    /// The series that are drawn.
-    pub series: Vec<Series>,
-}
+pub struct Diagram(
+    pub &'static str,
+    pub [&'static str; 2],
+    pub [f64; 3],
+    pub [f64; 3],
+    pub Vec<Series>,
+);
 
 const HEIGHT: f64 = 340.0;
-/// Left, right without names, top and bottom, px.
-const MARGINS: [f64; 4] = [72.0, 20.0, 10.0, 48.0];
+/// Left, top and bottom of the plot, px.
+const PLOT: [f64; 3] = [72.0, 10.0, 292.0];
 const COLORS: [RGBColor; 6] = [BLUE, VERMILION, ORANGE, GRAY, SKY, INK];
-/// Half the width of a bar, px.
-const HALF_BAR: f64 = 9.0;
-/// Most labels along the axis across.
-const LABELS: usize = 7;
 
 impl Diagram {
     /// The diagram as SVG.
@@ -77,140 +44,99 @@ impl Diagram {
     /// # Errors
     /// [`PresentError::Drawing`].
     pub fn svg(&self) -> Result<String, PresentError> {
-        svg(self.title, self.title, HEIGHT, |area| {
-            let (x, y) = (self.x.0..self.x.1, self.y.0..self.y.1);
-            let mut builder = chart(area, self.margins());
-            if !self.is_logarithmic {
-                return self.draw_on(area, builder.build_cartesian_2d(x, y)?);
+        let Self(title, labels, x_ticks, y_ticks, all) = self;
+        let [left, top, bottom] = PLOT;
+        let longest = all.iter().map(|(name, ..)| name.chars().count()).max();
+        let right = WIDE - KEY - 7.8 * longest.unwrap_or(0) as f64;
+        let [first, _, last] = *y_ticks;
+        let is_logarithmic = first > 0.0 && last > 999.0 * first;
+        let up = |y: f64| if is_logarithmic { y.log10() } else { y };
+        let place = |x: f64, y: f64| {
+            let across = (x - x_ticks[0]) / (x_ticks[2] - x_ticks[0]);
+            let height = (up(y) - up(first)) / (up(last) - up(first));
+            (
+                left + (right - left) * across,
+                bottom - (bottom - top) * height,
+            )
+        };
+        let ticks = |[first, second, last]: [f64; 3], is_logarithmic: bool| {
+            let next = move |at: &f64| match is_logarithmic {
+                true => at * second / first,
+                false => at + second - first,
+            };
+            // But for the round-off of sums and products.
+            std::iter::successors(Some(first), move |at| Some(next(at)))
+                .take_while(move |at| *at < 1.001 * last)
+        };
+        svg(title, title, HEIGHT, |area| {
+            for y in ticks(*y_ticks, is_logarithmic) {
+                let down = place(x_ticks[0], y).1;
+                let tick = if is_logarithmic {
+                    format!("{y:.0e}")
+                } else {
+                    y.to_string()
+                };
+                line(area, &[(left, down), (right, down)], Pen::solid(PALE, 0.8))?;
+                write(area, &tick, (left - 26.0, down), MIDDLE)?;
             }
-            let [low, high] = [y.start, y.end].map(|end| end.log10().round() as i32);
-            let powers = (low..=high).step_by(if high - low > 7 { 2 } else { 1 });
-            let powers = powers.map(|power| 10f64.powi(power)).collect();
-            let y = y.log_scale().with_key_points(powers);
-            self.draw_on(area, builder.build_cartesian_2d(x, y)?)
+            for x in ticks(*x_ticks, false) {
+                write(
+                    area,
+                    &x.to_string(),
+                    (place(x, first).0, bottom + 14.0),
+                    MIDDLE,
+                )?;
+            }
+            write(
+                area,
+                labels[0],
+                (0.5 * (left + right), bottom + 36.0),
+                MIDDLE,
+            )?;
+            name_upright(area, labels[1], 0.5 * (top + bottom))?;
+            let ground = if is_logarithmic { first } else { 0.0 };
+            let mut ends = Vec::new();
+            for ((name, drawn, points), row) in all.iter().zip(0_u8..) {
+                let color = COLORS[usize::from(row)];
+                let pen = Pen::solid(color, 1.0);
+                let places = points.iter().map(|&(x, y)| place(x, y)).collect_vec();
+                let beside = (right, top + 14.0 + LINE * f64::from(row));
+                let of = |form, size| Mark(form, size, Some(color), pen);
+                ends.push(match drawn {
+                    Drawn::Lines(dash) => {
+                        for piece in places.split(|(_, down)| down.is_nan()) {
+                            line(area, piece, Pen(color, 1.8, *dash))?;
+                        }
+                        Named(
+                            places[places.len() - 1],
+                            name,
+                            Some(Pen(color, 2.4, *dash)),
+                            None,
+                        )
+                    }
+                    Drawn::Dots => {
+                        places
+                            .iter()
+                            .try_for_each(|at| mark(area, *at, of(Form::Circle, 4.0)))?;
+                        Named(beside, name, None, Some(of(Form::Circle, 4.0)))
+                    }
+                    Drawn::Bars => {
+                        places.iter().try_for_each(|&(x, y)| {
+                            let end = (x + 9.0, place(0.0, ground).1);
+                            polygon(area, &corners((x - 9.0, y), end), Some(color), pen)
+                        })?;
+                        Named(beside, name, None, Some(of(Form::Square, 5.0)))
+                    }
+                });
+            }
+            if ends.len() > 1 {
+                name_ends(area, ends)?;
+            }
+            line(
+                area,
+                &[(left, bottom), (right, bottom)],
+                Pen::solid(INK, 1.0),
+            )
         })
     }
-
-    /// Room of the axes, and of the names at the ends of lines.
-    fn margins(&self) -> [f64; 4] {
-        let [left, right, top, bottom] = MARGINS;
-        let names = name_margin(self.series.iter().map(|series| series.name));
-        let right = if self.has_lines() { names } else { right };
-        [left, right, top, bottom]
-    }
-
-    /// True if names stand at the ends of lines; bars and dots have a legend instead.
-    fn has_lines(&self) -> bool {
-        let is_line =
-            |series: &Series| matches!(series.mark, SeriesMark::Line | SeriesMark::Dashed);
-        self.series.iter().any(is_line)
-    }
-
-    fn draw_on<Y>(
-        &self,
-        area: &Area,
-        mut chart: Chart<'_, '_, plotters::coord::types::RangedCoordf64, Y>,
-    ) -> Drawn
-    where
-        Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
-    {
-        // Four digits, without the round-off of sums of decimal steps.
-        let tick = |value: &f64| {
-            let text = format!("{value:.3e}");
-            text.parse::<f64>().unwrap_or(*value).to_string()
-        };
-        let upright = |value: &f64| match value.abs().log10().round() as i32 {
-            power @ ..-3 if self.is_logarithmic => format!("10{}", raised(power)),
-            _ => tick(value),
-        };
-        axes(&mut chart)
-            .disable_x_mesh()
-            .x_labels(LABELS)
-            .y_labels(6)
-            .x_label_formatter(&tick)
-            .y_label_formatter(&upright)
-            .x_desc(self.labels[0])
-            .draw()?;
-        let [_, _, top, bottom] = MARGINS;
-        name_upright(area, self.labels[1], 0.5 * (HEIGHT + top - bottom))?;
-        let ground = if self.is_logarithmic { self.y.0 } else { 0.0 };
-        let end_of = placed(area, &chart, self.x.1, self.y.1);
-        let mut ends: Vec<Named> = Vec::new();
-        for Series {
-            name,
-            mark: form,
-            points,
-        } in &self.series
-        {
-            let row = ends.len() - usize::from(name.is_empty() && !ends.is_empty());
-            let color = COLORS[row % COLORS.len()];
-            let dash = if *form == SeriesMark::Dashed {
-                Dash::Dashed
-            } else {
-                Dash::Solid
-            };
-            let dot = Mark(Form::Circle, 4.0, Some(color), Pen::solid(color, 1.0));
-            let places = points
-                .iter()
-                .map(|&(x, y)| (placed(area, &chart, x, y), placed(area, &chart, x, ground)));
-            let places = places.collect_vec();
-            match form {
-                SeriesMark::Line | SeriesMark::Dashed => {
-                    let line_of = places.iter().map(|(at, _)| *at).collect_vec();
-                    line(area, &line_of, Pen(color, 1.8, dash))?;
-                }
-                SeriesMark::Dots => places.iter().try_for_each(|(at, _)| mark(area, *at, dot))?,
-                SeriesMark::Bars => places.iter().try_for_each(|((x, y), (_, ground))| {
-                    let bar = corners((x - HALF_BAR, *y), (x + HALF_BAR, *ground));
-                    polygon(area, &bar, Some(color), Pen::solid(color, 1.0))
-                })?,
-            }
-            let (pen, key) = match form {
-                SeriesMark::Dots => (None, Some(dot)),
-                SeriesMark::Bars => (None, Some(Mark(Form::Square, 5.0, Some(color), dot.3))),
-                _ => (Some(Pen(color, 2.4, dash)), None),
-            };
-            let end = places.last().map_or(end_of, |(at, _)| *at);
-            match ends.last_mut() {
-                Some(last) if name.is_empty() => last.0 = end,
-                _ => ends.push(Named(end, name, pen, key)),
-            }
-        }
-        if !self.has_lines() {
-            let names = name_margin(ends.iter().map(|named| named.1));
-            let (left, first) = (end_of.0 - names - 6.0, end_of.1 + 14.0);
-            let rows = ends
-                .iter_mut()
-                .zip((0..).map(|row| first + LINE * f64::from(row)));
-            rows.for_each(|(end, down)| end.0 = (left, down));
-        }
-        if ends.len() > 1 {
-            name_ends(area, ends)?;
-        }
-        line(
-            area,
-            &[
-                placed(area, &chart, self.x.0, self.y.0),
-                placed(area, &chart, self.x.1, self.y.0),
-            ],
-            Pen::solid(INK, 1.0),
-        )
-    }
-}
-
-/// Room for names behind the ends of their lines, px.
-fn name_margin<'a>(names: impl Iterator<Item = &'a str>) -> f64 {
-    let longest = names.map(|name| name.chars().count()).max();
-    KEY + 7.8 * longest.unwrap_or(0) as f64
-}
-
-/// A negative number as an exponent.
-fn raised(power: i32) -> String {
-    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let raise = |digit: char| {
-        digit
-            .to_digit(10)
-            .map_or('⁻', |digit| digits[digit as usize])
-    };
-    power.to_string().chars().map(raise).collect()
 }

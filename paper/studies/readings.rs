@@ -1,6 +1,9 @@
-//! What each reading of the step (12, 13) makes of the paper's own tables: every reading is run on the same box, as many passes as the
-//! paper prints, and compared with the print gage by gage. That tells which lies nearest, not which it was.
+//! What each reading of the step (12, 13) makes of the gages that the paper prints, column by column: in whole runs of as many passes as are
+//! printed; and from the published gages of the pass before with exactly the published number of iterations, where neither a tolerance
+//! nor a cap takes part, so that the length of the step shows as well as its direction. That tells which lies nearest, not which it was.
 
+use super::accumulation::accumulation_table;
+use super::{percents, rows};
 use crate::prelude::*;
 
 /// The readings of the step that the tables are asked about, the library's own first.
@@ -10,77 +13,136 @@ pub const READINGS: [StepRule; 4] = [
     StepRule::Relative,
     StepRule::Gage,
 ];
+/// The element that Case 4 has a hundred times too thin.
+pub const FAULTY_ELEMENT: usize = 8;
 
-/// A column of the paper's gages as one reading has it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReadingColumn {
-    /// The reading.
-    pub reading: StepRule,
-    /// Number of the paper's table of gages.
-    pub table: usize,
-    /// Stage of the table: `pass_1`, or `fem_7` with seven analysis modes.
-    pub stage: String,
-    /// Gages, in, elements 1 to 15.
-    pub gages_in: Vec<f64>,
-    /// The paper's gage errors, fractions of the test gage.
-    pub published_errors: Vec<f64>,
-    /// Iterations of the inner loop.
-    pub iterations: usize,
-    /// RMS gage errors of shear panels and of membranes, fractions; NaN without any.
-    pub gage_rms: [f64; 2],
-    /// RMS frequency and shape errors, fractions: of the exact solution in a pass, of the inner loop with fewer modes, as
-    /// printed.
-    pub rms: [f64; 2],
+/// A rule of the step: a reading of the paper's sentence, or half, $c = 1 - R e_S y_e/\sum y^2$ with
+/// $y_e = (\Delta e_e/0.001)/\lVert \kappa_e \rVert^{1/2}$, behind which no text stands.
+pub type Rule = Option<StepRule>;
+
+/// All of them.
+pub const RULES: [Rule; 5] = [
+    Some(READINGS[0]),
+    Some(READINGS[1]),
+    Some(READINGS[2]),
+    Some(READINGS[3]),
+    None,
+];
+
+/// What tables call a rule.
+pub fn name(rule: Rule) -> &'static str {
+    rule.map_or("half", StepRule::name)
 }
 
-impl ReadingColumn {
-    fn new(
-        case: &Case,
-        (table, stage): (usize, String),
-        gages: &[f64],
-        iterations: usize,
-        rms: [f64; 2],
-    ) -> Result<Self, CaseError> {
-        let paper = PublishedTable::number(table)?;
-        let printed = |panel: usize| {
-            Ok(paper.required(&panel.to_string(), &format!("{stage}_in"))? / TEST_GAGE - 1.0)
+/// A printed column of gages: where it starts, and what it should come to.
+#[derive(Clone)]
+struct Printed {
+    case: Case,
+    name: String,
+    start: Vec<f64>,
+    gages_in: Vec<f64>,
+    iterations: usize,
+    modes: (usize, usize),
+    error_sum: Option<f64>,
+}
+
+/// The printed columns of a box's cases: `Case 1 pass 2`, `Table 11 FEM 7`.
+fn printed(reconstruction: &Reconstruction) -> Vec<Printed> {
+    let case = |number| Case::from_reconstruction(number, reconstruction.clone()).unwrap();
+    let table = |number| PublishedTable::number(number).unwrap();
+    let gages = |table: &PublishedTable, stage: &str| {
+        let of = |panel: usize| {
+            table
+                .required(&panel.to_string(), &format!("{stage}_in"))
+                .unwrap()
         };
-        Ok(Self {
-            reading: case.settings.inner.step,
-            table,
-            gages_in: gages.to_vec(),
-            published_errors: (1..=PANEL_COUNT)
-                .map(printed)
-                .collect::<Result<_, CaseError>>()?,
-            iterations,
-            gage_rms: [ElementKind::ShearPanel, ElementKind::Membrane]
-                .map(|kind| gage_rms(&case.panels, gages, kind)),
-            rms,
-            stage,
-        })
+        (1..=PANEL_COUNT).map(of).collect_vec()
+    };
+    let (counts, mut columns) = (table(13), Vec::new());
+    for number in 1..=3 {
+        let (case, table) = (case(number), table(2 * number + 2));
+        let mut start = case.first_gages();
+        for pass in 1..=published_passes(number) {
+            let heading = format!("pass_{pass}_iterations");
+            let gages_in = gages(&table, &format!("pass_{pass}"));
+            columns.push(Printed {
+                case: case.clone(),
+                name: format!("Case {number} pass {pass}"),
+                start: std::mem::replace(&mut start, gages_in.clone()),
+                gages_in,
+                iterations: counts.required(&number.to_string(), &heading).unwrap() as usize,
+                modes: (9, 9),
+                error_sum: None,
+            });
+        }
+    }
+    let case = case(PUBLISHED_CASE);
+    for (test_modes, analysis_modes) in PUBLISHED_RUNS {
+        // Seven test modes in Table 10, five in Table 11, three in Table 12.
+        let (number, stage) = ((27 - test_modes) / 2, format!("fem_{analysis_modes}"));
+        let table = table(number);
+        let percent = |row: &str| table.required(row, &format!("{stage}_percent")).unwrap();
+        let sum = 0.01 * (percent("frequency_rms") + percent("shape_rms"));
+        columns.push(Printed {
+            case: case.clone(),
+            name: format!("Table {number} FEM {analysis_modes}"),
+            start: case.first_gages(),
+            gages_in: gages(&table, &stage),
+            iterations: percent("iterations") as usize,
+            modes: (test_modes, analysis_modes),
+            error_sum: Some(sum * (test_modes as f64).sqrt()),
+        });
+    }
+    columns
+}
+
+/// What a rule makes of a printed column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// The rule.
+    pub rule: Rule,
+    /// The column.
+    pub name: String,
+    /// Gages reached, in, elements 1 to 15.
+    pub gages_in: Vec<f64>,
+    /// Gages printed, in.
+    pub printed_in: Vec<f64>,
+    /// Error sum reached, a fraction; NaN of a whole run.
+    pub error_sum: f64,
+    /// The printed one, where errors of the inner loop are printed: a fraction.
+    pub printed_sum: Option<f64>,
+}
+
+impl Column {
+    fn new(rule: Rule, printed: &Printed, gages_in: Vec<f64>, error_sum: f64) -> Self {
+        Self {
+            rule,
+            name: printed.name.clone(),
+            gages_in,
+            printed_in: printed.gages_in.clone(),
+            error_sum,
+            printed_sum: printed.error_sum,
+        }
     }
 
-    /// Gage errors, fractions of the test gage.
-    pub fn errors(&self) -> impl Iterator<Item = f64> + '_ {
-        self.gages_in.iter().map(|gage| gage / TEST_GAGE - 1.0)
-    }
-
-    /// Correlation coefficient of the gage errors with the printed ones.
-    pub fn correlation(&self) -> f64 {
-        correlation(self.errors().collect(), self.published_errors.clone())
-    }
-
-    /// Root mean square difference of the gage errors from the printed ones, a fraction.
+    /// Root mean square difference of the gage errors from the printed ones, a fraction of the test gage.
     pub fn difference(&self) -> f64 {
-        let pairs = self.errors().zip(&self.published_errors);
-        rms(&pairs.map(|(error, printed)| error - printed).collect_vec())
+        let pairs = self.gages_in.iter().zip(&self.printed_in);
+        rms(&pairs
+            .map(|(own, print)| (own - print) / TEST_GAGE)
+            .collect_vec())
+    }
+
+    /// Correlation coefficient of the gages with the printed ones.
+    pub fn correlation(&self) -> f64 {
+        correlation(&self.gages_in, &self.printed_in)
     }
 }
 
 /// Correlation coefficient of two lists.
-pub fn correlation(one: Vec<f64>, other: Vec<f64>) -> f64 {
-    let about_mean = |list: Vec<f64>| {
-        let list = DVector::from_vec(list);
+pub fn correlation(one: &[f64], other: &[f64]) -> f64 {
+    let about_mean = |list: &[f64]| {
+        let list = DVector::from_column_slice(list);
         list.add_scalar(-list.mean())
     };
     let (one, other) = (about_mean(one), about_mean(other));
@@ -93,127 +155,163 @@ pub fn correlation(one: Vec<f64>, other: Vec<f64>) -> f64 {
 /// Those of [`run_case`].
 pub fn run_by_reading(case: &Case, reading: StepRule) -> Result<CaseResult, CaseError> {
     let passes = published_passes(case.number);
-    let settings = Settings {
+    let mut case = case.clone();
+    case.settings = Settings {
         least_passes: passes,
         most_passes: passes,
         ..case.settings_by(reading)
     };
-    run_case(
-        &Case {
-            settings,
-            ..case.clone()
-        },
-        |_, _| {},
-    )
+    run_case(&case, |_, _| {})
 }
 
-/// The gages of a run beside the paper's, one column a pass that the paper prints; none for Case 4.
-///
-/// # Errors
-/// [`CaseError::Table`] if the published tables were damaged.
-pub fn columns_of(result: &CaseResult) -> Result<Vec<ReadingColumn>, CaseError> {
-    let case = &result.case;
-    let table = match case.number {
-        1..=3 => 2 * case.number + 2,
-        _ => return Ok(Vec::new()),
-    };
-    let passes = result
-        .correlation
-        .passes
-        .iter()
-        .zip(&result.pass_gages)
-        .take(published_passes(case.number));
-    let column = |(row, (pass, gages)): (usize, (&Pass, &Vec<f64>))| {
-        let rms = [
-            pass.check.errors.frequency_rms(),
-            pass.check.errors.shape_rms(),
-        ];
-        ReadingColumn::new(
-            case,
-            (table, format!("pass_{}", row + 1)),
-            gages,
-            pass.inner.iterations.len(),
-            rms,
-        )
-    };
-    passes.enumerate().map(column).collect()
-}
-
-/// What Case 4's first iteration asks for by one reading.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Detection {
-    /// The reading.
-    pub reading: StepRule,
-    /// Unlimited factor of the faulty element.
-    pub factor: f64,
-    /// The largest of the others.
-    pub next: f64,
-}
-
-/// The element that Case 4 has a hundred times too thin.
-pub const FAULTY_ELEMENT: usize = 8;
-
-/// Case 4 by one reading.
-///
-/// # Errors
-/// Those of [`run_by_reading`].
-pub fn detection(
-    reconstruction: &Reconstruction,
-    reading: StepRule,
-) -> Result<Detection, CaseError> {
-    let result = run_by_reading(
-        &Case::from_reconstruction(4, reconstruction.clone())?,
-        reading,
-    )?;
-    let factors = result.unlimited_factors().to_vec();
-    let faulty = FAULTY_ELEMENT - 1;
-    let others = factors
-        .iter()
-        .enumerate()
-        .filter(|(element, _)| *element != faulty)
-        .map(|(_, factor)| *factor);
-    Ok(Detection {
-        reading,
-        factor: factors[faulty],
-        next: others.fold(f64::MIN, f64::max),
-    })
-}
-
-/// Those of the reconstructed box.
-pub static COLUMNS: LazyLock<Vec<ReadingColumn>> =
-    LazyLock::new(|| all_columns(&Reconstruction::embedded().expect("a box")).expect("they run"));
-
-/// Every published column of gages by every reading: Cases 1 to 3 pass by pass, then Tables 10 to 12.
+/// The printed columns of one of Cases 1 to 3, or of Tables 10 to 12 for another number, by a reading.
 ///
 /// # Errors
 /// Those of [`run_by_reading`] and [`published_runs`].
-pub fn all_columns(reconstruction: &Reconstruction) -> Result<Vec<ReadingColumn>, CaseError> {
-    let mut columns = Vec::new();
-    for reading in READINGS {
-        for number in 1..=3 {
-            let result = run_by_reading(
-                &Case::from_reconstruction(number, reconstruction.clone())?,
-                reading,
-            )?;
-            columns.extend(columns_of(&result)?);
-        }
-        let mut case = Case::from_reconstruction(PUBLISHED_CASE, reconstruction.clone())?;
+pub fn columns_of(
+    reconstruction: &Reconstruction,
+    number: usize,
+    reading: StepRule,
+) -> Result<Vec<Column>, CaseError> {
+    let name = if number < 4 {
+        format!("Case {number}")
+    } else {
+        "Table".to_owned()
+    };
+    let mut columns = printed(reconstruction);
+    columns.retain(|column| column.name.starts_with(&name));
+    let mut case = columns[0].case.clone();
+    let gages = if number < 4 {
+        run_by_reading(&case, reading)?.pass_gages
+    } else {
         case.settings = case.settings_by(reading);
-        for run in published_runs(&case)? {
-            let table = [(7, 10), (5, 11), (3, 12)]
-                .into_iter()
-                .find(|(modes, _)| *modes == run.test_modes);
-            let table = table.map_or(0, |(_, table)| table);
-            let rms = [run.inner.frequency_rms, run.inner.shape_rms];
-            let stage = format!("fem_{}", run.analysis_modes);
-            columns.push(ReadingColumn::new(
-                &case,
-                (table, stage),
-                &run.gages_in,
-                run.iterations,
-                rms,
-            )?);
-        }
+        let runs = published_runs(&case)?.into_iter();
+        runs.map(|run| run.gages_in).collect()
+    };
+    let column = |(of, gages)| Column::new(Some(reading), of, gages, f64::NAN);
+    Ok(columns.iter().zip(gages).map(column).collect())
+}
+
+/// Every printed column of the reconstructed box by every reading.
+pub static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
+    let this = &Reconstruction::embedded().unwrap();
+    let of = |reading| (1..=4).flat_map(move |case| columns_of(this, case, reading).unwrap());
+    READINGS.into_iter().flat_map(of).collect()
+});
+
+/// An analysis whose steps are divided by what a rule makes of the changes of the error sum $\Delta e$, the norms $\lVert \kappa \rVert$ of
+/// the reading matrix, and the factors on the gages.
+pub struct ByRule<'a, F>(pub &'a Model, pub F);
+
+impl<F: Fn(&[f64], &[f64], &[f64]) -> Vec<f64>> Analysis for ByRule<'_, F> {
+    fn exact(&self) -> &State {
+        self.0.exact()
     }
-    Ok(columns)
+
+    fn at(&self, factors: &[f64]) -> Result<State, Error> {
+        self.0.at(factors)
+    }
+
+    fn error_changes(&self, state: &State) -> Result<Vec<f64>, Error> {
+        self.0.error_changes(state)
+    }
+
+    fn stiffness_changes(&self, state: &State, gage_factors: &[f64], _: StepRule) -> Vec<f64> {
+        let changes = self.0.error_changes(state).unwrap();
+        let mut kappa = self
+            .0
+            .stiffness_changes(state, gage_factors, StepRule::Matrix);
+        kappa.iter_mut().for_each(|norm| *norm /= DERIVATIVE_STEP);
+        (self.1)(&changes, &kappa, gage_factors)
+    }
+}
+
+/// What half divides by.
+fn half(changes: &[f64], kappa: &[f64], _: &[f64]) -> Vec<f64> {
+    let y = changes.iter().zip(kappa);
+    let y = y.map(|(change, norm)| change / DERIVATIVE_STEP / norm.sqrt());
+    let squares: f64 = y.map(|y| y * y).sum();
+    let divisor = |norm: &f64| DERIVATIVE_STEP * norm.sqrt() * squares;
+    kappa.iter().map(divisor).collect()
+}
+
+/// Every printed column by every rule after the printed iterations, rule by rule, on the reconstructed box.
+pub static COUNTED: LazyLock<Vec<Column>> = LazyLock::new(|| {
+    let columns = printed(&Reconstruction::embedded().unwrap());
+    let counted = |rule: Rule| {
+        let of = move |column: &Printed| {
+            let model = column.case.model_with(&column.start).unwrap();
+            let test = column.case.test_modes().unwrap();
+            let test = test.lowest(column.modes.0).unwrap();
+            let ones = [1.0; PANEL_COUNT];
+            let modal = model.analyze(&ones, &test, Some(column.modes.1)).unwrap();
+            let ranges = model.factor_ranges().unwrap();
+            let mut settings = InnerSettings {
+                iterations: column.iterations,
+                tolerance: f64::MIN_POSITIVE,
+                ..column.case.settings.inner.clone()
+            };
+            let found = match rule {
+                Some(step) => {
+                    settings.step = step;
+                    run(&modal, &ones, &ranges, &settings)
+                }
+                None => run(&ByRule(&modal, half), &ones, &ranges, &settings),
+            }
+            .unwrap();
+            let gages = column.start.iter().zip(&found.factors);
+            let gages = gages.map(|(start, factor)| start * factor).collect();
+            Column::new(rule, column, gages, found.last.errors.sum())
+        };
+        columns.iter().map(of).collect_vec()
+    };
+    RULES.into_iter().flat_map(counted).collect()
+});
+
+/// Difference of all columns of a rule together, a fraction.
+pub fn pooled(rule: Rule) -> f64 {
+    let of_rule = COUNTED.iter().filter(|column| column.rule == rule);
+    rms(&of_rule.map(Column::difference).collect_vec())
+}
+
+/// Every reading against every printed column, what Case 4's first iteration asks for by each, and the printed counts.
+pub fn tables() -> Vec<Table> {
+    let names = COLUMNS[..COLUMNS.len() / READINGS.len()].iter();
+    let agreement = names.map(|of| {
+        let same = COLUMNS.iter().filter(|column| column.name == of.name);
+        let both = same.flat_map(|column| [column.correlation(), 100.0 * column.difference()]);
+        (&of.name, both.collect())
+    });
+    let columns = ["matrix", "own", "relative", "gage"]
+        .map(|name| [format!("r {name}"), format!("d {name}")]);
+    let columns = columns
+        .as_flattened()
+        .iter()
+        .map(String::as_str)
+        .collect_vec();
+    let demands = READINGS.map(|reading| {
+        let result = run_by_reading(&case_of(4), reading).unwrap();
+        let mut factors = result.unlimited_factors().to_vec();
+        let faulty = factors.remove(FAULTY_ELEMENT - 1);
+        (reading.name(), vec![faulty, factors.into_iter().largest()])
+    });
+    let count = COUNTED.len() / RULES.len();
+    let counted = (0..count).map(|row| {
+        let of_rules = COUNTED[row..].iter().step_by(count);
+        (
+            &COUNTED[row].name[..],
+            percents(of_rules.map(Column::difference)),
+        )
+    });
+    let counted = counted.chain([("all", percents(RULES.map(pooled)))]);
+    vec![
+        rows("readings_agreement", &columns, agreement),
+        rows(
+            "case_4_readings",
+            &["Faulty element", "Next largest"],
+            demands,
+        ),
+        rows("counted_gages", &RULES.map(name), counted),
+        accumulation_table(),
+    ]
 }

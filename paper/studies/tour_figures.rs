@@ -1,22 +1,23 @@
-//! The figures of the tour, in the order of its chapters: what is drawn is computed here. Those of the box stand beside.
+//! The figures of documents, the tour's in the order of its chapters: what is drawn is computed here.
 
-use super::diagram::{Diagram, Series, SeriesMark};
-use super::tour_figures_box::{bounds, demands, deviations, gages, history, orders};
+use super::diagram::Drawn::{Bars, Dots, Lines};
+use super::diagram::{Diagram, Series};
+use super::readings::{COUNTED, RULES, name};
+use crate::paper::figures::canvas::Dash::{Dashed, Solid};
 use crate::prelude::*;
 
-/// Every chapter's own figure by the chapter's number. Chapter 5 shows one of the readings.
-pub fn figures() -> [(&'static str, Diagram); 10] {
+/// Every figure by the name of its file.
+pub fn figures() -> [(&'static str, Diagram); 9] {
     [
-        ("01", two_springs()),
-        ("02", orders()),
-        ("03", crease()),
-        ("04", first_step()),
-        ("06", history()),
-        ("07", bounds()),
-        ("08", gages()),
-        ("09", demands()),
-        ("10", deviations()),
-        ("11", stories()),
+        ("tour_01", two_springs()),
+        ("tour_02", orders()),
+        ("tour_03", crease()),
+        ("tour_04", first_step()),
+        ("counted_gages", counted_gages()),
+        ("tour_06", history()),
+        ("tour_08", gages()),
+        ("tour_09", demands()),
+        ("tour_10", deviations()),
     ]
 }
 
@@ -42,205 +43,252 @@ pub const SPRINGS: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" class="draw
 </g>
 </svg>"#;
 
-/// Numbers from one to another in equal steps.
-fn range(low: f64, high: f64, steps: usize) -> impl Iterator<Item = f64> {
-    (0..=steps).map(move |step| low + (high - low) * step as f64 / steps as f64)
+/// Numbers of panels or modes, from one, beside their values.
+fn numbered(values: impl IntoIterator<Item = f64>) -> Vec<(f64, f64)> {
+    (1..).map(f64::from).zip(values).collect()
 }
 
+const PANELS: [f64; 3] = [0.0, 2.0, 16.0];
+
 fn two_springs() -> Diagram {
-    let exact = |mode: usize| {
-        let root = move |change: f64| {
-            (
-                change,
-                1.0 / TwoMasses {
-                    coupling: 1.0,
-                    change,
-                }
-                .exact_roots()[mode],
-            )
-        };
-        range(-0.9, 2.0, 58).map(root)
-    };
-    let first_order = |mode: usize| {
-        let of = move |change: f64| {
+    let series = |name, mode: usize, drawn, steps: i32| {
+        let of = |step: i32| {
+            let change = -0.9 + 2.9 * f64::from(step) / f64::from(steps);
             let springs = TwoMasses {
                 coupling: 1.0,
                 change,
             };
+            let first = springs.generalized_stiffness()[mode] + springs.beta()[(mode, mode)];
             (
                 change,
-                springs.generalized_stiffness()[mode] + springs.beta()[(mode, mode)],
+                if steps > 1 {
+                    1.0 / springs.exact_roots()[mode]
+                } else {
+                    first
+                },
             )
         };
-        range(-0.9, 2.0, 1).map(of)
+        (name, drawn, (0..=steps).map(of).collect_vec())
     };
-    Diagram {
-        title: "Two masses: squared frequencies against the change of a spring",
-        labels: ["change of the first spring", "squared frequency"],
-        x: (-1.0, 2.0),
-        y: (0.0, 8.0),
-        is_logarithmic: false,
-        series: vec![
-            Series::new("mode 1, exact", SeriesMark::Line, exact(0)),
-            Series::new("mode 1, first order", SeriesMark::Dashed, first_order(0)),
-            Series::new("mode 2, exact", SeriesMark::Line, exact(1)),
-            Series::new("mode 2, first order", SeriesMark::Dashed, first_order(1)),
+    Diagram(
+        "Two masses: squared frequencies against the change of a spring",
+        ["change of the first spring", "squared frequency"],
+        [-1.0, 0.0, 2.0],
+        [0.0, 2.0, 8.0],
+        vec![
+            series("mode 1, exact", 0, Lines(Solid), 58),
+            series("mode 1, first order", 0, Lines(Dashed), 1),
+            series("mode 2, exact", 1, Lines(Solid), 58),
+            series("mode 2, first order", 1, Lines(Dashed), 1),
         ],
-    }
+    )
+}
+
+fn orders() -> Diagram {
+    let of_case = |name, number, drawn, is_first: bool| {
+        let modal = first_problem(number);
+        let factors = &case_run(&case_of(number)).correlation.passes[0]
+            .inner
+            .last
+            .factors;
+        let changes = modal.shares().iter().zip(factors);
+        let beta: DMatrix<f64> = changes.map(|(share, factor)| (factor - 1.0) * share).sum();
+        let k = modal.exact().modes.omega_squared();
+        let change = ModalChange::of_vibrations(k, beta.clone(), zero_square(9));
+        let exact = eigensolution(&change).unwrap();
+        let error = |order| {
+            let found = match is_first {
+                true => recursive_1(k, &beta, order),
+                false => change.pencil().unwrap().recursive_2(order),
+            };
+            let ratios = found.unwrap().roots.component_div(&exact.roots);
+            100.0 * ratios.map(|ratio| (1.0 / ratio.sqrt() - 1.0).abs()).max()
+        };
+        (name, drawn, numbered((1..=6).map(error)))
+    };
+    Diagram(
+        "Frequency errors of the recursions against their order",
+        ["order", "largest error of a frequency, %"],
+        [1.0, 2.0, 6.0],
+        [1e-10, 1e-8, 1e2],
+        vec![
+            of_case("Case 1, Recursive 1", 1, Lines(Solid), true),
+            of_case("Case 2, Recursive 1", 2, Lines(Solid), true),
+            of_case("Case 3, Recursive 1", 3, Lines(Solid), true),
+            of_case("Case 3, Recursive 2", 3, Lines(Dashed), false),
+        ],
+    )
 }
 
 /// A model of one parameter a share, beside the modes of its stiffness divided by a number.
 fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> Model {
     let stiffness: DMatrix<f64> = shares.iter().sum();
-    let count = stiffness.nrows();
-    let mass = eye(count);
-    let test = solve(&(&stiffness / too_stiff), &mass, count).unwrap();
-    DynamicModel {
+    let mass = eye(stiffness.nrows());
+    let test = solve(&(&stiffness / too_stiff), &mass, mass.nrows()).unwrap();
+    let model = DynamicModel {
         stiffness,
         mass,
         shares,
-    }
-    .analyze(&test, None)
-    .unwrap()
+    };
+    model.analyze(&test, None).unwrap()
 }
 
 fn crease() -> Diagram {
     let modal = too_stiff(
-        vec![spring_stiffness(2, 0, 1.5), spring_stiffness(2, 1, 1.5)],
+        [0, 1]
+            .map(|spring| spring_stiffness(2, spring, 1.5))
+            .to_vec(),
         1.5,
     );
-    let at = |factor: f64| {
-        let state = exact_state(&modal, &[factor, 1.0]);
-        state.unwrap().errors
+    let series = |name, drawn, of: fn(&Errors) -> f64| {
+        let factors = (0..=40).map(|step| 0.5 + f64::from(step) / 40.0);
+        let point = |factor| (factor, of(&modal.at(&[factor, 1.0]).unwrap().errors));
+        (name, drawn, factors.map(point).collect_vec())
     };
-    let series = |name, mark, of: fn(&Errors) -> f64| {
-        Series::new(
-            name,
-            mark,
-            range(0.5, 1.5, 40)
-                .map(|factor| (factor, of(&at(factor))))
-                .collect_vec(),
-        )
-    };
-    Diagram {
-        title: "The crease of the error sum",
-        labels: ["factor on the first spring", "error"],
-        x: (0.5, 1.5),
-        y: (0.0, 1.0),
-        is_logarithmic: false,
-        series: vec![
-            series("error sum", SeriesMark::Line, Errors::sum),
-            series("frequency error", SeriesMark::Dashed, |errors| {
-                errors.frequency
-            }),
-            series("shape error", SeriesMark::Line, |errors| errors.shape),
+    Diagram(
+        "The crease of the error sum",
+        ["factor on the first spring", "error"],
+        [0.5, 0.75, 1.5],
+        [0.0, 0.25, 1.0],
+        vec![
+            series("error sum", Lines(Solid), Errors::sum),
+            series("frequency error", Lines(Dashed), |errors| errors.frequency),
+            series("shape error", Lines(Solid), |errors| errors.shape),
         ],
-    }
+    )
 }
 
+/// First steps for one common factor, in units of Newton's: chapter 4 derives and computes them.
 fn first_step() -> Diagram {
-    let ratio = |n: usize, rule, settings: &Settings| {
-        let whole = (0..n).map(|spring| spring_stiffness(n, spring, 1.0)).sum();
-        let modal = too_stiff(vec![whole], 1.001);
-        let start = modal.exact();
-        // At c = 1, of n frequencies that are each √(1.001 c) of the test's, and of shapes that do not change.
-        let slope = 0.5 * (1.001 * n as f64).sqrt();
-        let stiffness = modal.stiffness_changes(start, &[1.0], rule)[0];
-        let (sum, relaxation) = (start.errors.sum(), settings.inner.relaxation);
-        let factor = unlimited_factor(DERIVATIVE_STEP * slope, stiffness, sum, relaxation);
-        // Newton's is the step to the right factor.
-        (n as f64, (factor - 1.0) / (1.0 / 1.001 - 1.0))
-    };
-    type Scaled = fn(&Settings, usize) -> Settings;
-    let as_it_is: Scaled = |settings, _| settings.clone();
-    let series = |name, mark, most: usize, rule, scaled: Scaled| {
-        let of = |n| ratio(n, rule, &scaled(&Settings::default(), n));
-        Series::new(name, mark, (1..=most).map(of).collect_vec())
-    };
-    Diagram {
-        title: "The first step beside Newton's",
-        labels: ["number of modes", "step in units of Newton's"],
-        x: (0.0, 30.0),
-        y: (0.0, 3.0),
-        is_logarithmic: false,
-        series: vec![
-            series(
-                "relative",
-                SeriesMark::Line,
-                12,
-                StepRule::Relative,
-                as_it_is,
-            ),
-            series("matrix", SeriesMark::Line, 30, StepRule::Matrix, as_it_is),
-            series(
-                "matrix, as nine modes",
-                SeriesMark::Dashed,
-                30,
-                StepRule::Matrix,
-                Settings::for_modes,
-            ),
-        ],
-    }
+    let of = |step: fn(f64) -> f64, most: i32| numbered((1..=most).map(|n| step(f64::from(n))));
+    let all = vec![
+        ("relative", Lines(Solid), of(|n| n / 4.0, 12)),
+        ("matrix", Lines(Solid), of(|n| n.sqrt() / 4.0, 30)),
+        ("matrix, as nine modes", Lines(Dashed), of(|_| 0.75, 30)),
+    ];
+    let labels = ["number of modes", "step in units of Newton's"];
+    let title = "The first step beside Newton's";
+    Diagram(title, labels, [0.0, 5.0, 30.0], [0.0, 1.0, 3.0], all)
 }
 
-fn stories() -> Diagram {
-    let analyze = |factors: &[f64]| {
-        let share = |(story, factor)| spring_stiffness(4, story, 4000.0 * factor);
-        let shares = factors.iter().enumerate().map(share).collect_vec();
-        DynamicModel {
-            stiffness: shares.iter().sum(),
-            mass: eye(4),
-            shares,
+fn counted_gages() -> Diagram {
+    let of = |rule| {
+        let columns = COUNTED.iter().filter(move |column| column.rule == rule);
+        columns.map(|column| 100.0 * column.difference())
+    };
+    Diagram(
+        "Gages after the published number of iterations",
+        ["column", "RMS difference from the print, points"],
+        [0.0, 5.0, 15.0],
+        [0.0, 10.0, 40.0],
+        RULES
+            .map(|rule| (name(rule), Dots, numbered(of(rule))))
+            .to_vec(),
+    )
+}
+
+fn history() -> Diagram {
+    let run = case_run(&case_of(2)).correlation;
+    let series = |name, drawn, of: fn(&Errors) -> f64| {
+        let (mut points, mut count, mut start) = (Vec::new(), 0.0, run.initial.errors);
+        // Every pass begins where the exact check of the one before it ends, and ends where its own perturbation does.
+        for pass in &run.passes {
+            points.push((count, 100.0 * of(&start)));
+            for step in &pass.inner.iterations {
+                count += 1.0;
+                points.push((count, 100.0 * of(&step.errors)));
+            }
+            start = pass.check.errors;
+            points.push((count, f64::NAN));
         }
+        points.pop();
+        (name, drawn, points)
     };
-    let truth = analyze(&[0.7, 1.0, 1.1, 1.0]);
-    let test = solve(&truth.stiffness, &truth.mass, 4).unwrap();
-    let settings = Settings {
-        error_sum_tolerance: 0.005,
-        later_inner_tolerance: 0.0025,
-        ..Settings::default()
-    }
-    .for_modes(4);
-    let run = correlate(
-        |factors| analyze(factors).analyze(&test, None),
-        &[None; 4],
-        &settings,
-        |_, _| true,
-    );
-    let mut history = vec![vec![1.0; 4]];
-    for pass in run.unwrap().passes {
-        let base = history.last().unwrap().clone();
-        let product = |factors: &Vec<f64>| {
-            base.iter()
-                .zip(factors)
-                .map(|(base, factor)| base * factor)
-                .collect()
-        };
-        history.extend(
-            pass.inner
-                .iterations
-                .iter()
-                .map(|step| product(&step.factors))
-                .collect_vec(),
-        );
-    }
-    let names = ["story 1", "story 2", "story 3", "story 4"];
-    let of = |story: usize| {
-        history
-            .iter()
-            .enumerate()
-            .map(move |(n, factors)| (n as f64, factors[story]))
-    };
-    Diagram {
-        title: "The factors of four stories",
-        labels: ["iteration", "factor"],
-        x: (0.0, 20.0),
-        y: (0.6, 1.4),
-        is_logarithmic: false,
-        series: names
-            .into_iter()
-            .zip(0..)
-            .map(|(name, story)| Series::new(name, SeriesMark::Line, of(story)))
-            .collect(),
-    }
+    let steps = |pass: &Pass| pass.inner.iterations.len() as f64;
+    let ends = run.passes.iter().scan(0.0, |count, pass| {
+        *count += steps(pass);
+        Some((*count, 100.0 * pass.check.errors.sum()))
+    });
+    Diagram(
+        "Case 2 through both passes",
+        ["iteration", "error, %"],
+        [0.0, 10.0, 60.0],
+        [0.1, 1.0, 1000.0],
+        vec![
+            series("error sum", Lines(Solid), Errors::sum),
+            series("frequency error", Lines(Dashed), |errors| errors.frequency),
+            series("shape error", Lines(Dashed), |errors| errors.shape),
+            ("exact error sum", Dots, ends.collect()),
+        ],
+    )
+}
+
+/// A column of a published table of the fifteen panels.
+fn published(table: usize, heading: &str) -> Vec<f64> {
+    let table = PublishedTable::number(table).unwrap();
+    let of = |panel: usize| table.required(&panel.to_string(), heading).unwrap();
+    (1..=PANEL_COUNT).map(of).collect()
+}
+
+/// Bars or dots over the fifteen panels.
+fn of_panels(
+    title: &'static str,
+    label: &'static str,
+    y: [f64; 3],
+    series: Vec<Series>,
+) -> Diagram {
+    Diagram(title, ["panel", label], PANELS, y, series)
+}
+
+/// Gage errors of Case 2 at its end, percent.
+fn final_gage_errors() -> Vec<f64> {
+    let gages = case_run(&case_of(2)).pass_gages.pop().unwrap();
+    gages
+        .iter()
+        .map(|gage| 100.0 * (gage / TEST_GAGE - 1.0))
+        .collect()
+}
+
+fn gages() -> Diagram {
+    let published = published(6, "pass_2_percent");
+    let both = vec![
+        ("computed", Bars, numbered(final_gage_errors())),
+        ("published", Dots, numbered(published)),
+    ];
+    of_panels(
+        "Case 2: gage errors at the end",
+        "gage error, %",
+        [-20.0, 0.0, 60.0],
+        both,
+    )
+}
+
+fn demands() -> Diagram {
+    let factors = case_run(&case_of(4)).unlimited_factors().to_vec();
+    let bars = vec![("factor asked for", Bars, numbered(factors))];
+    let title = "Case 4: unlimited factors of the first iteration";
+    of_panels(title, "unlimited factor", [-20.0, 0.0, 60.0], bars)
+}
+
+fn deviations() -> Diagram {
+    let (case, ones) = (case_of(2), [1.0; PANEL_COUNT]);
+    let model = case.model_with(&[TEST_GAGE; PANEL_COUNT]).unwrap();
+    let modal = model
+        .analyze(&ones, &case.test_modes().unwrap(), None)
+        .unwrap();
+    let seen = jacobian(&Comparison::from(&modal), &equal_weights(Noise::USUAL, 9))
+        .and_then(|jacobian| identifiability(&jacobian, &ones))
+        .unwrap();
+    let deviations = seen.deviations.iter().map(|deviation| 100.0 * deviation);
+    let errors = final_gage_errors().into_iter().map(f64::abs);
+    let both = vec![
+        (
+            "standard deviation of the factor",
+            Bars,
+            numbered(deviations),
+        ),
+        ("gage error left in Case 2", Dots, numbered(errors)),
+    ];
+    let title = "What nine noisy modes know of the panels of Case 2";
+    of_panels(title, "%", [0.0, 25.0, 100.0], both)
 }

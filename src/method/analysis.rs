@@ -13,7 +13,7 @@ use super::step::StepRule;
 /// Relative change of a parameter's stiffness for a derivative.
 pub const DERIVATIVE_STEP: f64 = 0.001;
 
-/// Separation of two modes, relative to the larger $\omega^2$, below which a difference holds them to their own shapes.
+/// Ours: separation of two modes, relative to the larger $\omega^2$, below which a difference holds them to their own shapes.
 ///
 /// A step of [`DERIVATIVE_STEP`] couples two modes so close by a tenth and more, which is no longer first order. Where two
 /// roots meet their shapes have no derivative at all, while the roots still have one.

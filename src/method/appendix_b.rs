@@ -54,7 +54,7 @@ pub struct Balanced {
 ///    \hat r_{ki} = -\frac{\hat\phi_k^t R_i v_i}{\omega_i^2 - \mu_k}, \qquad r_i = L^{-t} Y \hat r_i. $$
 ///
 /// `stiffness` in lbf/in and `mass` in lbf·s²/in (d × d), suspension springs included and aerodynamic forces left out
-/// (`paper/interpretation.md`); `rigid_body` $= \Phi$ (d × m), see [`rigid_body_vectors`].
+/// (`paper/print_and_box.md`); `rigid_body` $= \Phi$ (d × m), see [`rigid_body_vectors`].
 ///
 /// # Errors
 /// [`Error::WrongShape`] and [`Error::Value`] for data that does not fit or is not finite; [`Error::NotPositiveDefinite`] when the

@@ -1,5 +1,5 @@
 //! Element stiffness matrices in global axes, for unit gage or area.
-//! Tour: [chapter 8](crate::tour::chapter_08_box).
+//! Tour: [chapter 12](crate::tour::chapter_12_elements).
 //!
 //! Each function takes corner positions in inches and a material, and returns the stiffness at the x, y, z translations
 //! of the corners in the order given. Stiffness is proportional to gage or area.

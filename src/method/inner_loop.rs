@@ -19,7 +19,7 @@ pub struct InnerSettings {
     pub factor_range: Bounds,
     /// Tolerance TOLI on the error sum $e_S$.
     pub tolerance: f64,
-    /// Halvings of a step that does not lower $e_S$ before the place counts as a local minimum; zero stops
+    /// Ours: halvings of a step that does not lower $e_S$ before the place counts as a local minimum; zero stops
     /// at the first rise.
     pub halvings: usize,
     /// Most iterations (accepted steps).

@@ -1,7 +1,8 @@
 //! The method, in the order of the paper: a text to be read in an evening.
 //!
 //! Plain functions over matrices, one section of the paper a file. The paper's symbols stand inside the functions, beside the
-//! numbers of their equations; names and signatures are in words. Nothing here knows of the other rooms.
+//! numbers of their equations; names and signatures are in words. What is no sentence of the paper is marked *ours*. Nothing here
+//! knows of the other rooms.
 
 pub mod error;
 pub mod linear_algebra;

@@ -414,7 +414,7 @@ impl Analysis for Model {
             beta += (s - 1.0) * share;
         }
         let perturbed = recursive_1_converged(k, &beta)?.perturbed;
-        // V p of unit generalized mass (11), with ω² = 1/γ (9).
+        // V p of unit generalized mass (9, 11), with ω² = 1/γ (10).
         let mut p = perturbed.shapes;
         for mut shape in p.column_iter_mut() {
             shape.normalize_mut();

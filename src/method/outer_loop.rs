@@ -52,7 +52,7 @@ impl Settings {
         positive("shape_tolerance", owner, self.shape_tolerance)
     }
 
-    /// Settings for another number of test modes than the nine that the paper's were found with: errors of the same root mean
+    /// Ours: settings for another number of test modes than the nine that the paper's were found with: errors of the same root mean
     /// square are met, and the step (13) is as long.
     pub fn for_modes(&self, count: usize) -> Self {
         let scale = 3.0 / (count.max(1) as f64).sqrt();
@@ -93,7 +93,7 @@ pub struct Correlation {
     pub initial: State,
     /// The passes made.
     pub passes: Vec<Pass>,
-    /// The pass with the lowest exact error sum, of those within tolerance if there are any, from zero; none when no pass improved
+    /// Ours: the pass with the lowest exact error sum, of those within tolerance if there are any, from zero; none when no pass improved
     /// on the start.
     pub best: Option<usize>,
     /// The factors of that pass; all one when there is none.

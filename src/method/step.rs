@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Gage in which a change of gage is measured by the step, in.
 pub const REFERENCE_GAGE: f64 = 0.01;
 
-/// Least part of the stored stiffness that the changes of an inner loop leave when they add.
+/// Ours: least part of the stored stiffness that the changes of an inner loop leave when they add.
 pub const LEAST_SHARE: f64 = 1e-3;
 
 /// Closed interval of factors, gages or areas.
@@ -58,7 +58,7 @@ impl Bounds {
 
 /// Measure of the change in generalized stiffness $\Delta k_e$ of (12) and (13) for a relative change.
 ///
-/// The paper's sentence can be read in several ways, and its tables do not decide between them (`paper/interpretation.md`). With
+/// The paper's sentence can be read in several ways, and its tables do not decide between them (`paper/print_and_box.md`). With
 /// $\kappa_{ij} = s_e V_{Gi}^t K_e V_{Gj}/(\omega_{Gi} \omega_{Gj})$, the element's stiffness on the test modes relative to the
 /// test's own:
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -154,8 +154,8 @@ pub fn limited_factor(
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Accumulation {
-    /// Changes add, $K_e \big(1 + \sum (c - 1)\big)$ and at least [`LEAST_SHARE`] of $K_e$, while gages multiply: the paper's, by its
-    /// Tables 9 to 12.
+    /// Changes add, $K_e \big(1 + \sum (c - 1)\big)$ and at least [`LEAST_SHARE`] of $K_e$, while gages multiply: ours, read from the
+    /// paper's Tables 9 to 12.
     Sum,
     /// Changes multiply as gages do: $K_e c_1 c_2$ after two steps.
     Product,

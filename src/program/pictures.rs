@@ -1,12 +1,12 @@
 //! `corfem figures` and `corfem report`: files in a folder.
 
 use super::output::{note, write, write_files};
-use super::paper::figures::{Figure, case_figures, comparison_figures};
+use super::paper::figures::{Figure, case_figures};
 use super::paper::page::{Contents, page};
 use clap::Args;
 use corfem::present::PresentError;
 use corfem::present::table::counted;
-use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, all_runs};
+use corfem::torque_box::fewer_modes::{PUBLISHED_CASE, published_runs};
 use corfem::torque_box::{CASES, Case, CaseResult, run_case};
 use std::path::{Path, PathBuf};
 
@@ -24,11 +24,8 @@ pub struct ReportArguments {
     output: Option<PathBuf>,
 }
 
-/// The four cases, Case 2 with fewer modes, and the figures of both.
-type CasesAndFigures = (Vec<CaseResult>, Vec<FewerModesRun>, Vec<Figure>);
-
-/// Runs the four cases, and Case 2 with fewer modes, and draws them.
-fn drawn(quiet: bool) -> Result<CasesAndFigures, PresentError> {
+/// Runs the four cases and draws them.
+fn drawn(quiet: bool) -> Result<(Vec<CaseResult>, Vec<Figure>), PresentError> {
     let mut results = Vec::new();
     for number in CASES {
         let result = run_case(&Case::new(number)?, |_, _| {})?;
@@ -38,10 +35,8 @@ fn drawn(quiet: bool) -> Result<CasesAndFigures, PresentError> {
         }
         results.push(result);
     }
-    let fewer_modes = all_runs(&Case::new(PUBLISHED_CASE)?)?;
-    let mut figures = case_figures(&results)?;
-    figures.extend(comparison_figures(PUBLISHED_CASE, &fewer_modes)?);
-    Ok((results, fewer_modes, figures))
+    let figures = case_figures(&results)?;
+    Ok((results, figures))
 }
 
 /// Writes the figures.
@@ -49,7 +44,7 @@ pub fn figures(
     FiguresArguments { folder }: &FiguresArguments,
     quiet: bool,
 ) -> Result<bool, PresentError> {
-    let (_, _, figures) = drawn(quiet)?;
+    let (_, figures) = drawn(quiet)?;
     let files = figures.into_iter();
     let files = files.map(|Figure { name, svg, .. }| (format!("{name}.svg"), svg));
     let files: Vec<_> = files.collect();
@@ -63,11 +58,11 @@ pub fn figures(
 
 /// Writes the page that has the figures and the tables.
 pub fn report(arguments: &ReportArguments, quiet: bool) -> Result<bool, PresentError> {
-    let (results, fewer_modes, figures) = drawn(quiet)?;
+    let (results, figures) = drawn(quiet)?;
     let place = arguments.output.as_deref().unwrap_or(Path::new("-"));
     let html = page(&Contents {
         results: &results,
-        fewer_modes: &fewer_modes,
+        fewer_modes: &published_runs(&Case::new(PUBLISHED_CASE)?)?,
         figures: &figures,
         command: &format!("corfem report --output {}", place.display()),
     })?;

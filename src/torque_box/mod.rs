@@ -224,7 +224,7 @@ pub fn published_passes(case: usize) -> usize {
 }
 
 /// The reading of the step that comes nearest to the published gages of a case; for Case 4, which has none, the one that the box
-/// was fitted with (`paper/interpretation.md`).
+/// was fitted with (`paper/print_and_box.md`).
 pub fn published_reading(case: usize) -> StepRule {
     if case == 2 || case == 3 {
         StepRule::Relative

@@ -1,6 +1,5 @@
 //! Strategies of inner-loop problems and settings, and the loop told again from its own record.
 
-pub use super::known::eigensolved::{Eigensolved, exact_state};
 use crate::prelude::*;
 
 /// All rules of the step.
@@ -162,4 +161,55 @@ pub fn verdict_of(found: &Correlation, first: &Model, ranges: &[Option<Bounds>])
         ranges,
     }
     .of_loops(found, &each, Errors::sum, false)
+}
+
+/// State of a model at factors by an eigensolution in its modal coordinates, each mode in the place of the exact mode that it is most like.
+///
+/// # Errors
+/// A model that is not a vibration at these factors, or whose modes do not pair with the test's.
+pub fn exact_state(model: &Model, factors: &[f64]) -> Result<State, Error> {
+    let size = model.exact().modes.len();
+    let mut beta = zero_square(size);
+    for (share, factor) in model.shares().iter().zip(factors) {
+        beta += (factor - 1.0) * share;
+    }
+    let stiffness = DMatrix::from_diagonal(model.exact().modes.omega_squared()) + beta;
+    let found = solve(&stiffness, &eye(size), size)?;
+    // Rows of the shapes are the exact modes, so their transpose is the cross-orthogonality of the new modes with these.
+    let places = pair_modes(&found.shapes().transpose())?;
+    let mut generalized = found.shapes().select_columns(&places.analysis_mode);
+    for (mut shape, sign) in generalized.column_iter_mut().zip(&places.sign) {
+        shape *= *sign;
+    }
+    let squares = found.omega_squared().select_rows(&places.analysis_mode);
+    let modes = Modes::new(squares, model.exact().modes.shapes() * &generalized)?;
+    let pairing = pair_modes(&generalized.tr_mul(model.cross()))?;
+    Ok(State {
+        factors: factors.to_vec(),
+        errors: errors(&modes, &pairing, model.test())?,
+        generalized_shapes: generalized,
+        modes,
+        pairing,
+    })
+}
+
+/// The paper's analysis with an eigensolution where it has Recursive 1.
+pub struct Eigensolved(pub Model);
+
+impl Analysis for Eigensolved {
+    fn exact(&self) -> &State {
+        self.0.exact()
+    }
+
+    fn at(&self, factors: &[f64]) -> Result<State, Error> {
+        exact_state(&self.0, factors)
+    }
+
+    fn error_changes(&self, state: &State) -> Result<Vec<f64>, Error> {
+        self.0.error_changes(state)
+    }
+
+    fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
+        self.0.stiffness_changes(state, gage_factors, rule)
+    }
 }

@@ -42,7 +42,8 @@ pub mod torque_boxes;
 pub mod vibrations;
 pub mod whole_models;
 
-pub use presentation::studies::known;
+pub use presentation::studies::{delta_wing, known};
+pub use presentation::wing;
 
 use crate::prelude::*;
 use nalgebra::ComplexField;

@@ -24,6 +24,7 @@ pub use crate::common::{
     condensed::{analyze_condensed, condensed},
     costly_config,
     decks::{bulk_data, bulk_text, read_deck},
+    delta_wing::{self, GROUPS, Group, TEST_MODES, first_model, measured_grids},
     diagonal,
     draws::{Draws, reached},
     eye,
@@ -35,21 +36,7 @@ pub use crate::common::{
         of_matrices, placed, prepare, prepared, report_of, retested, rods, rods_with, supposing,
         trust_in, with, worked,
     },
-    known::{
-        Known,
-        delta_wing::{
-            DeltaWing, MEASURED_GRIDS, TipLoad,
-            correlation::{
-                self, GROUPS, Group, TEST_MODES, WingCorrelation, correlate_wing,
-                correlate_wing_with, first_model, measured_grids, settings, test_modes,
-            },
-            known_deflections, known_frequencies,
-        },
-        planted,
-        weighed::Weighed,
-        whole::{self, of_elements},
-        wing::Wing,
-    },
+    known::{Known, Weighed},
     log_log_slope,
     loops::{
         Eigensolved, STEP_RULES, assert_error_sum_only_falls, assert_limits_hold, chain_problem,
@@ -86,7 +73,12 @@ pub use crate::common::{
         chain_of_springs, counted_modes, free_motions, lowest_modes, masses, of_dense, seen_by,
         sensors_at, shear_building, sparse, springs,
     },
-    whole_parameter, zero_square,
+    whole_parameter,
+    wing::{
+        Wing,
+        whole::{self, of_elements},
+    },
+    zero_square,
 };
 pub use approx::assert_relative_eq;
 pub use corfem::{
@@ -149,10 +141,10 @@ pub use corfem::{
     present::{
         PresentError,
         check::{check_tables, suspects_table},
-        compared::{Compared, Derivatives},
+        compared::Derivatives,
         render::{self, csv, text},
         report::Report,
-        table::{Cell, Digits, Table, numbers, percents},
+        table::{Cell, Digits, Table, numbers},
         views::trust_table,
     },
     sparse::{

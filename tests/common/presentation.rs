@@ -1,4 +1,5 @@
-//! How the paper's own cases are shown, which the program has as a module of its commands, and the studies behind its documents.
+//! How the paper's own cases are shown, which the program has as a module of its commands, the studies behind its documents, and the wing
+//! of the benches.
 
 #[path = "../../paper/presentation/mod.rs"]
 #[allow(dead_code, reason = "the program uses the rest")]
@@ -6,3 +7,7 @@ pub mod paper;
 
 #[path = "../../paper/studies/mod.rs"]
 pub mod studies;
+
+#[path = "../../benches/wing/mod.rs"]
+#[allow(dead_code, reason = "the benches use the rest")]
+pub mod wing;

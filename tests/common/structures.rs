@@ -1,6 +1,6 @@
 //! Small structures with known answers, and strategies of structures and their sizes.
 
-pub use crate::common::known::weighed::lumped_mass;
+pub use crate::common::known::lumped_mass;
 use crate::prelude::*;
 use corfem::chain::rods;
 

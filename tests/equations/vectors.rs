@@ -188,6 +188,23 @@ fn analysis(given: &Value) -> Answer {
     }))
 }
 
+fn elements(given: &Value) -> Answer {
+    let number = |key: &str| given[key].as_f64().unwrap();
+    let material = Material::isotropic(number("youngs_modulus"), number("poissons_ratio"))?;
+    let stiffness = |kind, key: &str| {
+        let points = matrix(&given[key]);
+        let points = points
+            .row_iter()
+            .map(|row| Vector3::new(row[0], row[1], row[2]));
+        rows(&unit_stiffness(kind, &points.collect_vec(), &material))
+    };
+    Ok(json!({
+        "rod": stiffness(ElementKind::Rod, "ends"),
+        "shear": stiffness(ElementKind::ShearPanel, "corners"),
+        "membrane": stiffness(ElementKind::Membrane, "corners"),
+    }))
+}
+
 fn box_loads(given: &Value) -> Answer {
     let model = case_of(1).model().unwrap();
     let t = model.load_distribution();
@@ -312,12 +329,18 @@ fn left_and_right(given: &Value) -> Answer {
 }
 
 fn state_and_step(given: &Value) -> Answer {
-    let (model, factors) = (model(&given["structure"]), flat(&given["factors"]));
+    let factors = flat(&given["factors"]);
+    let shares = given["shares"].as_array().into_iter().flatten();
+    let dynamic = DynamicModel {
+        stiffness: matrix(&given["stiffness"]),
+        mass: matrix(&given["mass"]),
+        shares: shares.map(matrix).collect(),
+    };
     let test = Modes::new(
         list(&given["test_omega_squared"]),
         matrix(&given["test_shapes"]),
     )?;
-    let modal = model.analyze(&vec![1.0; factors.len()], &test, None)?;
+    let modal = dynamic.clone().analyze(&test, None)?;
     let state = modal.at(&factors)?;
     let by = |rule| modal.stiffness_changes(&state, &factors, rule);
     let changes = modal.error_changes(&state)?;
@@ -329,7 +352,6 @@ fn state_and_step(given: &Value) -> Answer {
             .collect()
     };
     let start = &modal.exact().modes;
-    let dynamic = matrices(&model, &vec![1.0; factors.len()]);
     Ok(json!({
         "start_omega_squared": start.omega_squared().as_slice(),
         "start_shapes": rows(start.shapes()),
@@ -524,6 +546,7 @@ fn answer(vector: &Value) -> Answer {
     let function = match vector["function"].as_str().unwrap() {
         "analysis" => analysis,
         "box_loads" => box_loads,
+        "elements" => elements,
         "modes" => modes,
         "comparison" => comparison,
         "recursive_1" => stiffness_alone,

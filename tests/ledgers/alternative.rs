@@ -46,18 +46,10 @@ fn left(subject: &str, way: &str) -> Option<String> {
     of_rules(subject, way, "Factor RMS", 1).or_else(left)
 }
 
-fn milliseconds(subject: &str, way: &str) -> Option<String> {
-    answer(subject, way, "seconds").map(|seconds| format!("{:.0}", 1e3 * seconds))
-}
-
 /// The table of `paper/cost.md`.
 pub fn least_squares() -> String {
     type Cell = fn(&str, &str) -> Option<String>;
-    let parts: [(&str, Cell); 3] = [
-        ("analyses", analyses),
-        ("left, %", left),
-        ("ms", milliseconds),
-    ];
+    let parts: [(&str, Cell); 2] = [("analyses", analyses), ("left, %", left)];
     let mut rows = vec![("left, %: first model".to_owned(), (FIRST, left as Cell))];
     for (what, cell) in parts {
         rows.extend(WAYS.map(|(way, name)| (format!("{what}: {name}"), (way, cell))));
@@ -78,29 +70,6 @@ pub fn tailplane() -> String {
     let values = ANSWERS["GARTEUR"][ANALYTIC]["values"].as_str().unwrap();
     let factor: f64 = values.split(' ').nth(5).unwrap().parse().unwrap();
     format!("on GARTEUR it makes the tailplane {factor:.0} times as stiff")
-}
-
-/// The sentence of README.md on Cases 1 to 3.
-pub fn sentence() -> String {
-    let range = |way: &str, key: &str| {
-        let found = SUBJECTS[..3].iter();
-        let found = found.filter_map(|subject| answer(subject, way, key));
-        (found.clone().fold(f64::INFINITY, f64::min), found.largest())
-    };
-    let rule = "paper's rule";
-    let (their_analyses, our_analyses) = (range(LSMR, "analyses"), range(rule, "analyses"));
-    let (their_errors, our_errors) = (range(LSMR, "factors"), range(rule, "factors"));
-    format!(
-        "SciPy's `least_squares` with analytic derivatives and `lsmr` takes {} to {} analyses and leaves gages at most {:.1} % wrong \
-         (RMS); the paper's rule takes {} to {} and leaves {:.0} to {:.0} %.",
-        their_analyses.0,
-        their_analyses.1,
-        their_errors.1,
-        our_analyses.0,
-        our_analyses.1,
-        our_errors.0,
-        our_errors.1
-    )
 }
 
 /// What `paper/cost.md` says: three combinations of gages are open where the gages are right, and in Case 1 everywhere.

@@ -45,8 +45,13 @@ const OF_OTHER_BOXES: [&str; 4] = [
     "spec::s4_covers::covers_of_a_bay_that_begin_alike_stay_alike_under_any_rule",
 ];
 
-/// What a sentence on the step or on Case 4 says; wrong readings of sensors are not of the step.
-const WORDS: [&str; 23] = [
+/// What a sentence on the step or on Case 4 says, or on what the paper says in words; wrong readings of sensors are not of the step.
+const WORDS: [&str; 28] = [
+    "The paper finds",
+    "the shape that differs",
+    "box rods have",
+    "aper's wing",
+    "or exceeds",
     "Case 4",
     "lement 8",
     "by own",

@@ -5,7 +5,6 @@
 //! stand in their document word for word and are changed by hand. Numbers of other origin stand in tables marked `measured:`
 //! (with machine and date) or `stored:` (with the file).
 
-use crate::evidence::counted_figures::counted_figures;
 use crate::evidence::diagram::Diagram;
 use crate::evidence::tour_figures::{SPRINGS, figures};
 use crate::ledgers::{files_below, specification, tables};
@@ -26,6 +25,14 @@ pub fn documents_and_readmes() -> BTreeMap<String, String> {
     let mut readmes = files_below(&in_root("golden"));
     readmes.retain(|file| file.file_name().is_some_and(|name| name == "README.md"));
     documents().into_iter().chain(texts(readmes)).collect()
+}
+
+/// Every document, also those of the workshop.
+fn all_documents() -> BTreeMap<String, String> {
+    let mut files = files_below(&in_root("golden"));
+    files.retain(|file| file.extension().is_some_and(|end| end == "md"));
+    files.extend(["CONTRIBUTING.md", "CHANGELOG.md"].map(in_root));
+    documents().into_iter().chain(texts(files)).collect()
 }
 
 /// Texts of files by their path in the project.
@@ -87,16 +94,9 @@ fn figures_of_documents_are_what_the_program_draws() {
         let svg = diagram.svg().unwrap();
         (name.to_owned(), Figure::drawn(name, "", &svg).svg)
     };
-    let of_tour = figures().into_iter();
-    let of_tour = of_tour.map(|(name, drawn)| file(&format!("tour_{name}"), drawn));
     let springs = ("springs".to_owned(), SPRINGS.to_owned());
-    let drawn = of_tour
-        .chain(
-            counted_figures()
-                .into_iter()
-                .map(|(name, drawn)| file(name, drawn)),
-        )
-        .chain([springs]);
+    let drawn = figures().into_iter().map(|(name, drawn)| file(name, drawn));
+    let drawn = drawn.chain([springs]);
     let (documents, mut names) = (documents(), BTreeSet::new());
     for (name, svg) in drawn {
         let (path, new) = (
@@ -119,6 +119,11 @@ fn figures_of_documents_are_what_the_program_draws() {
         );
         names.insert(path);
     }
+    // This one has nothing computed in it.
+    let by_hand = "figures/elements.svg";
+    let shown = |text: &String| text.contains(&format!("{by_hand})"));
+    assert!(documents.values().any(shown));
+    names.insert(in_root("paper").join(by_hand));
     let files = files_below(&in_root("paper/figures"));
     assert!(files.into_iter().collect::<BTreeSet<_>>() == names);
     let inline = documents.iter().filter(|(_, text)| text.contains("<svg"));
@@ -139,12 +144,8 @@ pub fn links(markdown: &str) -> Vec<String> {
 /// As a host of code resolves it: relative to the file that has it.
 #[test]
 fn every_link_of_a_document_leads_to_a_file() {
-    let mut files = files_below(&in_root("golden"));
-    files.retain(|file| file.extension().is_some_and(|end| end == "md"));
-    files.extend(["CONTRIBUTING.md", "CHANGELOG.md"].map(in_root));
-    let all = documents().into_iter().chain(texts(files));
     let (mut count, mut nowhere) = (0, Vec::new());
-    for (name, text) in all {
+    for (name, text) in all_documents() {
         for link in links(&text) {
             let path = link.split('#').next().unwrap();
             let folder = in_root(&name).parent().unwrap().to_owned();
@@ -156,6 +157,32 @@ fn every_link_of_a_document_leads_to_a_file() {
         }
     }
     assert!(nowhere.is_empty() && count > 80, "{count}: {nowhere:#?}");
+}
+
+/// Documents to which those of a list lead.
+fn next(all: &BTreeMap<String, String>, from: &BTreeSet<String>) -> BTreeSet<String> {
+    let root = in_root("").canonicalize().unwrap();
+    let resolved = |name: &String| {
+        let folder = in_root(name).parent().unwrap().to_owned();
+        let found = links(&all[name]).into_iter();
+        found
+            .filter_map(|link| folder.join(link.split('#').next()?).canonicalize().ok())
+            .filter_map(|path| Some(path.strip_prefix(&root).ok()?.display().to_string()))
+            .collect_vec()
+    };
+    let found = from.iter().flat_map(resolved);
+    found.filter(|name| all.contains_key(name)).collect()
+}
+
+#[test]
+fn every_document_is_two_links_from_the_front_page_at_most() {
+    let all = all_documents();
+    let one = next(&all, &BTreeSet::from(["README.md".to_owned()]));
+    let near = next(&all, &one);
+    let far = all
+        .keys()
+        .filter(|name| !one.contains(*name) && !near.contains(*name));
+    assert_eq!(far.collect_vec(), [""; 0]);
 }
 
 /// Bytes of what a reader has before her: what is folded does not count.
@@ -174,9 +201,21 @@ fn open_bytes(text: &str) -> usize {
 #[test]
 fn the_long_documents_are_short() {
     let documents = documents();
-    for (name, most) in [("interpretation", 12), ("cost", 8), ("specification", 16)] {
+    let of_paper = documents.iter().filter(|(name, _)| {
+        name.starts_with("paper/")
+            && name.matches('/').count() == 1
+            && !name.ends_with("specification.md")
+    });
+    let bytes: usize = of_paper.map(|(_, text)| text.len()).sum();
+    assert!(bytes <= 80_000, "{bytes}");
+    for (name, most) in [
+        ("print_and_box", 14),
+        ("cost", 9),
+        ("own_structure", 9),
+        ("specification", 16),
+    ] {
         let bytes = open_bytes(&documents[&format!("paper/{name}.md")]);
-        assert!(bytes <= 1024 * most, "{name}: {bytes}");
+        assert!(bytes <= 1000 * most, "{name}: {bytes}");
     }
     assert_eq!(open_bytes("ab<details>cde</details>f"), 3);
 }
@@ -193,7 +232,7 @@ fn sentences_in_documents_are_what_the_program_computes() {
 /// The print is quoted there, not computed.
 const QUOTATIONS: [&str; 3] = [
     "paper/errata.md",
-    "paper/interpretation.md",
+    "paper/print_and_box.md",
     "paper/tables/README.md",
 ];
 
@@ -221,4 +260,35 @@ fn every_table_of_numbers_says_where_they_come_from() {
             );
         }
     }
+}
+
+/// Words of a text that begin in one way, as far as letters of a name go.
+fn names<'a>(text: &'a str, start: &str) -> Vec<&'a str> {
+    let end = |rest: &str| rest.find(|c: char| !c.is_ascii_uppercase() && c != '_');
+    let found = text.match_indices(start).map(|(at, _)| &text[at..]);
+    found
+        .map(|rest| &rest[..end(rest).unwrap_or(rest.len())])
+        .collect()
+}
+
+/// Every variable of the tests, and every file that is to be written for something new.
+#[test]
+fn contributing_names_every_variable_and_only_files_that_are_there() {
+    let text = &all_documents()["CONTRIBUTING.md"];
+    let (known, start) = (names(text, "CORFEM_"), "CORFEM_");
+    for file in ["tests", "golden"]
+        .map(in_root)
+        .iter()
+        .flat_map(|folder| files_below(folder))
+    {
+        let source = fs::read_to_string(&file).unwrap_or_default();
+        let unknown = names(&source, start)
+            .into_iter()
+            .find(|name| name.len() > start.len() && !known.contains(name));
+        assert_eq!(unknown, None, "{}", file.display());
+    }
+    let words = text.split('`').skip(1).step_by(2);
+    let is_path = |word: &&str| word.contains('/') && !word.contains(['*', ' ']);
+    let missing = words.filter(is_path).filter(|word| !in_root(word).exists());
+    assert_eq!(missing.collect_vec(), [""; 0]);
 }

@@ -157,6 +157,7 @@ fn every_entry_says_what_it_is_and_has_a_wrong_form() {
             "print",
             "scan",
             "remark",
+            "from",
         ]
         .into_iter()
         .chain(own)

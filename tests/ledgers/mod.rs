@@ -3,7 +3,6 @@
 
 pub mod alternative;
 pub mod claims;
-pub mod costs;
 pub mod documents;
 pub mod equations;
 pub mod errata;

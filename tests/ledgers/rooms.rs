@@ -155,7 +155,7 @@ fn the_tour_is_documentation_alone() {
         let is_markup = ["", "<script>", "</script>"].map(|tag| format!("#![doc = \"{tag}\"]"));
         let is_document =
             line.starts_with("//!") || is_file || is_markup.iter().any(|it| it == line);
-        let is_lint = line.starts_with("#![allow(rustdoc::");
+        let is_lint = line.starts_with("#[allow(rustdoc::");
         assert!(
             line.is_empty() || line == "}" || is_module || is_document || is_lint,
             "{line}"

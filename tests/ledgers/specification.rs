@@ -20,7 +20,11 @@ pub fn page() -> String {
         let what = text("what").unwrap();
         match text("formula") {
             Some(formula) => page += &format!("\n### ({owner}) {what}\n\n$$ {formula} $$\n"),
-            None => page += &format!("\n### Sentence: {owner}\n\n{what}.\n"),
+            None => {
+                let from = text("from").filter(|from| ["print", "ours"].contains(from));
+                let from = from.unwrap_or_else(|| panic!("{owner}: from the print or ours"));
+                page += &format!("\n### Sentence ({from}): {owner}\n\n{what}.\n");
+            }
         }
         let code = |key: &str| {
             let mut names = strings(entry, key);

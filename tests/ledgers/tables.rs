@@ -1,7 +1,7 @@
 //! The computed tables and sentences of README.md and `paper/*.md`: the texts of `tests/computed.toml`, filled from the goldens.
 
 use crate::evidence::coverage::SEEDS;
-use crate::ledgers::{alternative, costs, files_below};
+use crate::ledgers::{alternative, files_below};
 use crate::prelude::*;
 
 /// A line of a golden in CSV.
@@ -93,7 +93,7 @@ pub fn computed(table: &str, row: &str, column: &str, decimals: usize) -> String
 }
 
 /// A number of a place, written as it is asked for.
-fn number(place: &str, how: &str) -> String {
+pub fn number(place: &str, how: &str) -> String {
     let decimals = how[..1].parse().unwrap();
     let write = |number: f64| rounded(number, decimals);
     let Some((what, range)) = place.split_once(" /") else {
@@ -125,36 +125,13 @@ fn named() -> BTreeMap<String, String> {
     let mut put = |name: &str, value: f64, decimals| {
         named.insert(name.to_owned(), rounded(value, decimals));
     };
-    let held = ["coverage", "intervals_structures"];
-    let held = held.map(|of| least(&all(&format!("/{of}/{of}/"), "/Least held")));
-    put("worst", least(&held), 1);
-    for (name, panels) in [
-        ("panels", &["7", "12", "13", "14"][..]),
-        ("report", &["12", "13", "14"]),
-    ] {
-        let of = |when: &str| {
-            let place = |panel| format!("case_2_next_step/{panel}/Error {when}");
-            panels
-                .iter()
-                .map(|panel| number(&place(panel)))
-                .collect_vec()
-        };
-        let ends = of("at the end");
-        put(&format!("{name}_least"), least(&ends), 0);
-        put(&format!("{name}_most"), most(&ends), 0);
-        put(
-            &format!("{name}_after"),
-            most(&of("after the step")).ceil(),
-            0,
-        );
-    }
-    for (name, run, used) in [
-        ("matrix", "Case 1 pass 2", "own"),
-        ("gage", "Case 2 pass 1", "relative"),
-    ] {
-        let points = |reading: &str| number(&format!("readings_agreement/{run}/d {reading}"));
-        put(&format!("nearer_{name}"), points(used) - points(name), 1);
-    }
+    let of = |when: &str| {
+        let place = |panel| format!("case_2_next_step/{panel}/Error {when}");
+        ["12", "13", "14"].map(|panel| number(&place(panel)))
+    };
+    put("panels_least", least(&of("at the end")), 0);
+    put("panels_most", most(&of("at the end")), 0);
+    put("panels_after", most(&of("after the step")).ceil(), 0);
     // Of weighted steps over the paper's rule.
     for (name, column, unit, decimals) in [
         ("steps", "Steps", 100.0, 0),
@@ -218,35 +195,14 @@ pub fn table<L: Display, K>(
     format!("| {head} |\n|{rule}\n{}", rows.collect::<String>())
 }
 
-/// The structures of the coverage tables.
-pub const COVERED: [&str; 12] = [
-    "Case 2",
-    "Case 2 by bays",
-    "Case 3",
-    "Delta wing",
-    "Building",
-    "Chain of 8, 8 sensors, 0.1/0.3 %",
-    "Chain of 8, 8 sensors, 0.5/2 %",
-    "Chain of 8, 4 sensors, 0.1/0.3 %",
-    "Chain of 8, 4 sensors, 0.5/2 %",
-    "60 DOF, truncated",
-    "Free chain with masses",
-    "Four decades",
-];
-
 /// Every computed table by its name.
 pub fn tables() -> BTreeMap<String, String> {
     let of_texts = TEXTS
         .tables
         .iter()
         .map(|(name, text)| (name.clone(), filled(text)));
-    let others = [
-        ("costs", costs::costs()),
-        ("least_squares", alternative::least_squares()),
-    ];
-    of_texts
-        .chain(others.map(|(name, text)| (name.to_owned(), text)))
-        .collect()
+    let least_squares = ("least_squares".to_owned(), alternative::least_squares());
+    of_texts.chain([least_squares]).collect()
 }
 
 /// Sentences with computed numbers, beside the document in which each stands word for word.
@@ -255,9 +211,6 @@ pub fn sentences() -> Vec<(&'static str, String)> {
         .sentences
         .iter()
         .map(|[name, text]| (&name[..], filled(text)));
-    let others = [
-        ("README.md", alternative::sentence()),
-        ("paper/cost.md", alternative::tailplane()),
-    ];
-    of_texts.chain(others).collect()
+    let tailplane = ("paper/cost.md", alternative::tailplane());
+    of_texts.chain([tailplane]).collect()
 }

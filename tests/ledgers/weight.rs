@@ -52,7 +52,7 @@ const OPERATORS: [&str; 22] = [
     "*=", "/=", "%=", "^=", "&=", "|=", "..",
 ];
 
-fn is_word(character: char) -> bool {
+pub fn is_word(character: char) -> bool {
     character.is_alphanumeric() || character == '_'
 }
 

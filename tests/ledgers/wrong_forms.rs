@@ -415,7 +415,7 @@ fn copy(forms: &[Form], folder: &Path) {
     let mut files = vec![root().join("README.md")];
     let tests = ["common", "equations", "jobs"].into_iter().chain(TESTS);
     let tests = tests.map(|room| format!("tests/{room}"));
-    for part in ["src", "golden", "paper"]
+    for part in ["src", "golden", "paper", "benches/wing"]
         .map(str::to_owned)
         .into_iter()
         .chain(tests)

@@ -2,7 +2,7 @@
 
 use crate::common::jobs::loaded;
 use crate::evidence::coverage::ENOUGH;
-use crate::ledgers::tables::{COVERED, computed};
+use crate::ledgers::tables::computed;
 use crate::prelude::*;
 use corfem::present::check::MOST_SUSPECTS;
 use corfem::present::render::WIDTH;
@@ -30,7 +30,7 @@ fn the_structures_on_file_keep_what_is_asked() {
             .parse()
             .unwrap()
     };
-    for structure in COVERED {
+    for structure in ["Case 3", "Delta wing", "Building"] {
         let of = |column| number(structure, column, 3);
         let asked = if structure == "Case 3" {
             LEAST_COVER

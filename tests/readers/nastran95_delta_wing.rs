@@ -3,23 +3,17 @@
 //! `golden/nastran95/delta_wing.toml` is what its correlation with NASTRAN-95 found; `golden/nastran95/README.md` says how
 //! it was made and what to expect of it.
 
+use crate::common::delta_wing::{RUN, correlate_wing, test_modes};
 use crate::prelude::*;
-
-static RUN: LazyLock<WingCorrelation> =
-    LazyLock::new(|| correlate_wing(&wing(), |_, _| {}).unwrap());
-
-fn wing() -> DeltaWing {
-    DeltaWing::embedded()
-}
 
 /// NASTRAN-95's frequencies at the gages its own correlation went through are the crate's at the same gages: no panel of
 /// the wing is snapped.
 #[test]
 fn stored_frequencies_are_the_crates_at_the_same_factors() {
     let stored = stored_wing();
-    let model = first_model(&wing()).unwrap();
-    assert_eq!(stored.initial.factors, [1.0; GROUPS.len()]);
-    let test = test_modes(&wing()).unwrap();
+    let model = first_model();
+    assert_eq!(stored.initial.factors, vec![1.0; GROUPS.len()]);
+    let test = test_modes();
     // They are the crate's own on both sides, perhaps by another processor.
     assert_near(
         &stored.test_frequencies_hz,
@@ -29,7 +23,7 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
     );
     for found in stored.checks() {
         let own = model
-            .analyze(&found.factors, &test, None)
+            .analyze(&found.factors, &test)
             .unwrap()
             .exact()
             .clone();
@@ -58,7 +52,7 @@ fn stored_frequencies_are_the_crates_at_the_same_factors() {
 /// The whole correlation through NASTRAN-95 is the built-in one: the same passes, iterations and factors.
 #[test]
 fn stored_correlation_is_the_crates() {
-    let (stored, own) = (stored_wing(), &RUN.correlation);
+    let (stored, own) = (stored_wing(), &RUN.0);
     assert_near(
         &[stored.initial.frequency_rms, stored.initial.shape_rms],
         &[
@@ -92,27 +86,15 @@ fn stored_correlation_is_the_crates() {
 #[test]
 fn another_analysis_is_asked_for_every_model() {
     let mut asked = Vec::new();
-    let mut told = Vec::new();
-    let run = correlate_wing_with(
-        &wing(),
-        &settings(),
-        |model, factors| {
-            asked.push(factors.to_vec());
-            Ok::<_, Error>(model.clone())
-        },
-        |pass, _| told.push(pass),
-    )
-    .unwrap();
-    assert_eq!(run.correlation.passes.len(), RUN.correlation.passes.len());
-    assert_eq!(told, [1, 2, 3]);
+    let run = correlate_wing(|model, factors| {
+        asked.push(factors.to_vec());
+        Ok::<_, Error>(model.clone())
+    });
+    let passes = run.unwrap().0.passes;
+    assert_eq!(passes.len(), RUN.0.passes.len());
     // For the shares of the first model, at the start of the loop, and after every pass.
     let mut expected = vec![vec![1.0; GROUPS.len()]; 2];
-    expected.extend(
-        RUN.correlation
-            .passes
-            .iter()
-            .map(|pass| pass.factors.clone()),
-    );
+    expected.extend(passes.iter().map(|pass| pass.factors.clone()));
     assert_eq!(asked, expected);
 }
 
@@ -120,18 +102,13 @@ fn another_analysis_is_asked_for_every_model() {
 fn what_an_analysis_cannot_do_is_the_correlations_error() {
     for answered in [0, 1, 2] {
         let mut left = answered;
-        let error = correlate_wing_with(
-            &wing(),
-            &settings(),
-            |model: &FiniteElementModel, _: &[f64]| {
-                if left == 0 {
-                    return Err(FileError::Interrupted);
-                }
-                left -= 1;
-                Ok(model.clone())
-            },
-            |_, _| {},
-        );
+        let error = correlate_wing(|model, _| {
+            if left == 0 {
+                return Err(FileError::Interrupted);
+            }
+            left -= 1;
+            Ok(model.clone())
+        });
         assert!(matches!(error, Err(FileError::Interrupted)), "{answered}");
     }
 }

@@ -59,6 +59,7 @@ pub mod s4_covers;
 pub mod s4_errata_tables;
 pub mod s4_fewer_modes;
 pub mod s4_readings;
+pub mod s4_sentences;
 pub mod s4_snapshots;
 pub mod s4_tables_published;
 pub mod sx_assignment;

@@ -1,9 +1,7 @@
 //! Upper and lower covers of a box that is symmetric about its mid-plane: no rule of the step tells them apart, while the print does.
 
 use crate::common::boxes::other_box;
-use crate::evidence::published_counts::COUNTED;
-use crate::evidence::published_counts::run_by;
-use crate::evidence::readings::correlation;
+use crate::evidence::readings::{ByRule, COUNTED, correlation};
 use crate::prelude::*;
 
 /// The covers of the root, tip and middle bays, elements from zero.
@@ -49,7 +47,8 @@ properties! {
             };
             (0..PANEL_COUNT).map(divisor).collect()
         };
-        let (factors, _) = run_by(&modal, &[None; PANEL_COUNT], &settings, &rule)?;
+        let found = run(&ByRule(&modal, rule), &[1.0; PANEL_COUNT], &[None; PANEL_COUNT], &settings);
+        let factors = found?.factors;
         for [one, other] in BAYS {
             prop_assert!(relative_error(factors[one], factors[other]) < SAME_HISTORY);
         }
@@ -73,17 +72,12 @@ fn the_print_of_case_1_bounds_what_any_rule_can_reach_on_a_symmetric_box() {
         .zip(&printed)
         .map(|(a, b)| a - b)
         .collect_vec();
-    let (most, least) = (correlation(nearest, printed.clone()), rms(&apart));
+    let (most, least) = (correlation(&nearest, &printed), rms(&apart));
     assert_eq!(format!("{most:.2} {:.1}", 100.0 * least), "0.68 5.0");
     let of_column = COUNTED
         .iter()
         .filter(|column| column.name == "Case 1 pass 1");
     for column in of_column {
-        let errors = column
-            .gages_in
-            .iter()
-            .map(|gage| gage / TEST_GAGE - 1.0)
-            .collect();
-        assert!(column.difference >= least && correlation(errors, printed.clone()) <= most);
+        assert!(column.difference() >= least && column.correlation() <= most);
     }
 }

@@ -13,13 +13,13 @@ struct Noisy {
 
 impl Noisy {
     fn new(seed: u64) -> Self {
-        let known = Known::of_case(3).unwrap();
+        let known = Known::of_case(3);
         let test = with_noise(&known.test, Noise::USUAL, seed).unwrap();
         Self { known, test }
     }
 
     fn analyze(&self, factors: &[f64]) -> Result<Comparison, Error> {
-        let model = self.known.model.analyze(factors, &self.test, None)?;
+        let model = self.known.model.analyze(factors, &self.test)?;
         Ok(Comparison::from(&model))
     }
 
@@ -141,7 +141,7 @@ fn intervals_are_withheld_where_none_is_true() {
     let at_bound = noisy.intervals(&held.factors, &ranges, 1.0)[0];
     assert_eq!(at_bound, Err(Withheld::AtBound));
     // Case 2 leaves the ratio of both covers of a bay to the prior.
-    let known = Known::of_case(2).unwrap();
+    let known = Known::of_case(2);
     let noisy = Noisy {
         test: known.test.clone(),
         known,

@@ -1,20 +1,19 @@
 //! Rankings of suspects: by the first iteration's own factors, and by what one parameter alone explains.
 
-use crate::evidence::localization::NOISE;
 use crate::prelude::*;
 use crate::spec::sx_weighted::at;
 
 #[test]
 fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
     for (number, modes) in [(1, 9), (2, 9), (3, 5)] {
-        let known = Known::of_case(number).unwrap();
+        let known = Known::of_case(number);
         let lowest = (0..modes).collect_vec();
         let (omega_squared, shapes) = (
             known.test.omega_squared().select_rows(&lowest),
             known.test.shapes().select_columns(&lowest),
         );
         let test = Modes::new(omega_squared, shapes).unwrap();
-        let model = known.model.analyze(&[1.0; 15], &test, None).unwrap();
+        let model = known.model.analyze(&[1.0; 15], &test).unwrap();
         let settings = InnerSettings {
             iterations: 1,
             ..InnerSettings::default()
@@ -49,7 +48,7 @@ fn evidence_is_what_the_objective_falls_by_at_the_factor_named() {
         case.model().unwrap().matrices(&[1.0; 15]).unwrap(),
         case.test_modes().unwrap(),
     );
-    let weights = equal_weights(NOISE, test.len());
+    let weights = equal_weights(Noise::USUAL, test.len());
     let objective = |factors: &[f64]| {
         let model = at(&first, factors).analyze(&test, None).unwrap();
         let residuals = residuals(&Comparison::from(&model), &weights);

@@ -121,6 +121,6 @@ fn every_case_has_the_same_modes() {
 
 #[test]
 fn the_delta_wing_has_the_same_modes() {
-    let model = first_model(&DeltaWing::embedded()).unwrap();
+    let model = first_model();
     assert_same_modes(&model, 10);
 }

@@ -6,7 +6,7 @@ use corfem::weighted::starts::{Minimum, StartEnd};
 
 #[test]
 fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
-    let known = Known::of_case(2).unwrap();
+    let known = Known::of_case(2);
     let weights = equal_weights(DEVIATIONS, known.test.len());
     // Without trials there is one analysis a start.
     let settings = WeightedSettings {
@@ -49,7 +49,7 @@ fn random_starts_are_log_uniform_from_half_to_twice_the_first_factors() {
 /// Of three starts the second has no model, and later a trial has none: the others end where all of them do.
 #[test]
 fn a_start_or_a_trial_without_a_model_is_rejected_and_the_others_stand() {
-    let known = Known::of_case(2).unwrap();
+    let known = Known::of_case(2);
     let weights = equal_weights(DEVIATIONS, known.test.len());
     let settings = WeightedSettings::default();
     let starts = |count: usize, fails: &dyn Fn(usize, &[f64]) -> bool| {
@@ -167,7 +167,7 @@ fn one_step_from_near_the_truth_leaves_an_error_of_second_order() {
 /// At the truth nothing is left to move; far from it everything that is not moved is hardly seen.
 #[test]
 fn what_a_step_moves_is_more_than_its_deviation() {
-    let known = Known::of_case(2).unwrap();
+    let known = Known::of_case(2);
     let next = |factors: &[f64]| {
         let there = compare(&known, factors).unwrap();
         NextStep::at(&there, Noise::USUAL, 1.0).unwrap()
@@ -185,7 +185,7 @@ fn what_a_step_moves_is_more_than_its_deviation() {
 
 #[test]
 fn a_step_by_a_test_without_errors_is_refused() {
-    let known = Known::of_case(2).unwrap();
+    let known = Known::of_case(2);
     let there = compare(&known, &known.truth).unwrap();
     for noise in [
         Noise {

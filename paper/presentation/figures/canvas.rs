@@ -4,9 +4,7 @@
 //! knows whole units only, so a unit is a tenth of a pixel.
 
 pub use super::chart::{axes, chart, placed};
-pub use super::colors::{
-    BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, hex, legible_on, tint, toned,
-};
+pub use super::colors::{BLUE, GRAY, INK, ORANGE, PALE, SILVER, SKY, VERMILION, hex, tint, toned};
 use corfem::files::escaped;
 pub use corfem::present::PresentError;
 use corfem::present::render::lines;
@@ -83,7 +81,7 @@ pub enum Form {
     Diamond,
 }
 
-/// Style of letters; [`START`], [`MIDDLE`] and [`END`] say which end of them lies at their place.
+/// Style of letters; [`START`] and [`MIDDLE`] say which end of them lies at their place.
 #[derive(Clone, Copy)]
 pub struct Letters {
     pub height: f64,
@@ -105,7 +103,6 @@ const fn letters(across: HPos) -> Letters {
 
 pub const START: Letters = letters(HPos::Left);
 pub const MIDDLE: Letters = letters(HPos::Center);
-pub const END: Letters = letters(HPos::Right);
 
 impl Letters {
     pub fn bold(self) -> Self {
@@ -297,10 +294,4 @@ pub fn name_upright(area: &Area, text: &str, middle: f64) -> Drawn {
 /// A number with the sign for minus.
 pub fn signed(text: String) -> String {
     text.replace('-', "−")
-}
-
-/// Room for names that end beside an axis: as much as the longest asks for, px.
-pub fn name_room<'a>(names: impl Iterator<Item = &'a String>, least: f64) -> f64 {
-    let longest = names.map(|name| name.chars().count()).max().unwrap_or(0);
-    least.max(34.0 + 7.8 * longest as f64)
 }

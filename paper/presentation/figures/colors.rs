@@ -98,29 +98,6 @@ pub fn with_dark(svg: &str) -> String {
     )
 }
 
-/// The color for letters that has a contrast of at least 4.5 to 1 on a fill (WCAG 2.2, relative luminance).
-pub fn legible_on(fill: RGBColor) -> RGBColor {
-    let linear = |value: u8| {
-        let value = f64::from(value) / 255.0;
-        if value <= 0.04045 {
-            value / 12.92
-        } else {
-            ((value + 0.055) / 1.055).powf(2.4)
-        }
-    };
-    let luminance =
-        |RGBColor(r, g, b): RGBColor| 0.2126 * linear(r) + 0.7152 * linear(g) + 0.0722 * linear(b);
-    let contrast = |ink: RGBColor| {
-        let (one, other) = (luminance(ink) + 0.05, luminance(fill) + 0.05);
-        one.max(other) / one.min(other)
-    };
-    // One of black and white always has it; ink is softer.
-    [INK, WHITE]
-        .into_iter()
-        .find(|&ink| contrast(ink) >= 4.5)
-        .unwrap_or(BLACK)
-}
-
 /// A color between two, the second's share from 0 to 1.
 pub fn between(one: RGBColor, other: RGBColor, share: f64) -> RGBColor {
     let mix = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;

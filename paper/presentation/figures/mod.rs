@@ -1,4 +1,4 @@
-//! The figures as SVG: drawings that do not know where their data come from, those of a report, and those of the box.
+//! The paper's figures as SVG.
 //!
 //! The same data give the same bytes. Drawing fails with
 //! [`PresentError::Drawing`](corfem::present::PresentError::Drawing).
@@ -8,19 +8,13 @@ pub mod canvas;
 pub mod cases;
 pub mod chart;
 pub mod colors;
-pub mod comparisons;
 pub mod cover_gages;
 pub mod error_history;
-pub mod factors;
-pub mod matrices;
 pub mod mode_shapes;
-pub mod report;
 pub mod structure;
 pub mod view;
 
 pub use cases::{SHOWN, case_figures};
-pub use comparisons::comparison_figures;
-pub use report::report_figures;
 
 use colors::with_dark;
 
@@ -44,9 +38,4 @@ impl Figure {
             svg: with_dark(svg),
         }
     }
-}
-
-/// Numbers from one, as labels.
-pub fn numbers(count: usize) -> Vec<String> {
-    (1..=count).map(|number| number.to_string()).collect()
 }

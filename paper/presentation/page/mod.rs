@@ -12,10 +12,10 @@ use super::tables::cases::{iteration_table, outcome_table, settings_table, summa
 use super::tables::{fewer_modes, paper_tables};
 use corfem::present::PresentError;
 use corfem::present::page::{document, in_script, made, named, table};
-use corfem::present::table::{Cell, Table};
-use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE, PUBLISHED_RUNS};
+use corfem::present::table::Cell;
+use corfem::torque_box::fewer_modes::{FewerModesRun, PUBLISHED_CASE};
 use corfem::torque_box::{Case, CaseResult};
-use html::{figure, figures, prose, section_of};
+use html::{figure, figures, section_of};
 use story::story;
 
 /// The content of the page.
@@ -23,7 +23,7 @@ use story::story;
 pub struct Contents<'a> {
     /// The cases.
     pub results: &'a [CaseResult],
-    /// Runs with fewer modes, all pairs.
+    /// The paper's runs with fewer modes.
     pub fewer_modes: &'a [FewerModesRun],
     /// The figures of all these.
     pub figures: &'a [Figure],
@@ -31,6 +31,8 @@ pub struct Contents<'a> {
     pub command: &'a str,
 }
 
+/// Text on the box and on the differences from the published results.
+const PRINT_AND_BOX: &str = include_str!("../../print_and_box.md");
 const TITLE: &str = "The wing torque box, correlated";
 const LEAD: &str = "Element stiffnesses of a finite element model, corrected until its natural frequencies and mode shapes agree with \
     those of a ground vibration test.";
@@ -41,31 +43,20 @@ const LEAD: &str = "Element stiffnesses of a finite element model, corrected unt
 pub fn page(contents: &Contents) -> Result<String, PresentError> {
     let answer = answer(contents)?;
     let mut parts = story(contents)?;
-    let (mut story_html, appendix): (String, usize) = (
-        parts.iter().map(|(.., body)| body.as_str()).collect(),
-        parts.len(),
-    );
-    story_html += &answer;
-    let is_left =
-        |figure: &&Figure| !story_html.contains(&format!("<figure id=\"{}\">", figure.name));
-    let left: Vec<Figure> = contents.figures.iter().filter(is_left).cloned().collect();
-    let contents = &Contents {
-        figures: &left,
-        ..*contents
-    };
+    let appendix = parts.len();
     parts.push(named("box", "The box", "The box", box_section(contents)));
     for result in contents.results {
         let number = result.case.number;
-        let body = part(
-            &tables_of(result)?,
-            contents.figures,
-            &[format!("case_{number}_")],
-        );
+        let charts = if result.is_detection() {
+            String::new()
+        } else {
+            CaseReport::new(result).charts()?
+        };
+        let body = tables_of(result)?.iter().map(table).collect::<String>() + &charts;
         let heading = format!("Tables of Case {number}");
         parts.push(named(&format!("case-{number}"), &heading, &heading, body));
     }
-    let differences =
-        prose(include_str!("../../results.md").trim_start_matches(|letter| letter != '\n'));
+    let differences = section_of(PRINT_AND_BOX, "The results");
     let why = "Where the results differ from the published ones, and why";
     let cost = table(&outcome_table(contents.results))
         + &table(&iteration_table(contents.results)?)
@@ -138,56 +129,34 @@ fn answer(contents: &Contents) -> Result<String, PresentError> {
             in_script(&report.parameters())?
         );
     }
-    let shown = |what: &str| {
-        let drawn = contents.figures.iter().find(|figure| figure.name == what);
-        drawn.map_or_else(String::new, |drawn| figure(drawn, ""))
-    };
-    let frequencies = shown(&format!("case_{SHOWN}_frequencies"));
     body += &format!(
-        "<div class=\"answer\">\n<div>\n{}{frequencies}</div>\n{}</div>\n",
+        "<div class=\"answer\">\n<div>\n{}</div>\n{}</div>\n",
         table(&summary),
-        shown("box_gages")
+        drawn(contents, &["box_gages"])
     );
     Ok(body)
 }
 
-/// Tables, then the figures whose names begin with one of the prefixes.
-fn part(tables: &[Table], drawn: &[Figure], prefixes: &[impl AsRef<str>]) -> String {
-    let starts = |figure: &&Figure| {
+/// The figures whose names begin with one of the prefixes.
+fn drawn(contents: &Contents, prefixes: &[&str]) -> String {
+    let is_it = |figure: &&Figure| {
         prefixes
             .iter()
-            .any(|prefix| figure.name.starts_with(prefix.as_ref()))
+            .any(|prefix| figure.name.starts_with(prefix))
     };
-    let drawn = drawn.iter().filter(starts).map(|drawn| figure(drawn, ""));
-    tables.iter().map(table).collect::<String>() + &figures("figures", drawn)
+    let drawn = contents.figures.iter().filter(is_it);
+    figures("figures", drawn.map(|drawn| figure(drawn, "")))
 }
 
 fn box_section(contents: &Contents) -> String {
-    let assumed = section_of(
-        include_str!("../../reconstruction.md"),
-        "Assumed beyond the paper",
-    );
-    format!(
-        "<p>The paper prints neither coordinates nor masses. The box here was reconstructed from its results and \
-         reproduces its published frequencies to 1.106 % RMS, 5.20 % at worst. Agreement with those frequencies \
-         is calibration; agreement with everything else is evidence.</p>\n{}<h3>Assumed beyond the paper</h3>\n\
-         {assumed}",
-        part(&[], contents.figures, &["box_", "cover_"]),
-    )
+    section_of(PRINT_AND_BOX, "The box")
+        + &drawn(contents, &["box_points", "box_elements", "cover_gages"])
 }
 
-/// Tables 9 to 12, and the figure of the cost of truncation, which has its numbers.
+/// Tables 9 to 12.
 fn fewer_modes_section(contents: &Contents) -> Result<String, PresentError> {
-    let is_published =
-        |run: &&FewerModesRun| PUBLISHED_RUNS.contains(&(run.test_modes, run.analysis_modes));
-    let runs: Vec<FewerModesRun> = contents
-        .fewer_modes
-        .iter()
-        .filter(is_published)
-        .cloned()
-        .collect();
-    let tables = fewer_modes::published_tables(&Case::new(PUBLISHED_CASE)?, &runs)?;
+    let tables = fewer_modes::published_tables(&Case::new(PUBLISHED_CASE)?, contents.fewer_modes)?;
     let lead = "<p>Case 2 again, one pass from its first gages, with its lowest test modes alone and its lowest \
     analysis modes.</p>\n";
-    Ok(lead.to_owned() + &part(&tables, contents.figures, &["truncation"]))
+    Ok(lead.to_owned() + &tables.iter().map(table).collect::<String>())
 }

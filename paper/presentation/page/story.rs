@@ -1,4 +1,4 @@
-//! The page's words before its tables, from `paper/report.md`: every case with its figure, then the method.
+//! The page's words before its tables, from `report.md` beside it: every case with its figure, then the method.
 
 use super::super::figures::SHOWN;
 use super::super::report::CaseReport;
@@ -11,7 +11,7 @@ use corfem::torque_box::CaseResult;
 
 /// A part for every section of the words whose case there is.
 pub fn story(contents: &Contents) -> Result<Vec<Part>, PresentError> {
-    let sections = include_str!("../../report.md").split("\n## ").skip(1);
+    let sections = include_str!("report.md").split("\n## ").skip(1);
     let parts = sections.filter_map(|text| part(text, contents).transpose());
     parts.collect()
 }

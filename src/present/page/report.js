@@ -76,6 +76,14 @@ const slopes = (parameters, modes, derivatives) => {
   heat("Percent of a test mode's frequency (across) for one percent of a parameter (down), at the first model.",
     "Parameter", parameters.map(own => own.parameter), modes.map(own => own.mode), values, full, 2);
 };
+// All charts of a case of the paper.
+const charts = ({parameters, modes, first, corrected, derivatives}) => {
+  bars(parameters);
+  pairing(modes);
+  assurance(modes, first, "first", "before");
+  assurance(modes, corrected, "corrected", "after");
+  slopes(parameters, modes, derivatives);
+};
 // Computed against measured frequencies with lines of ±5 %: open circles before, full ones after.
 const pairing = modes => {
   const all = modes.flatMap(own => [own.test_hz, own.first_hz, own.corrected_hz]), [least, most] = ends(all);

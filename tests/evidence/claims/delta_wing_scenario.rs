@@ -2,8 +2,8 @@
 
 use crate::prelude::*;
 
-fn wing() -> DeltaWing {
-    DeltaWing::embedded()
+fn whole() -> WholeModes {
+    deck::modes(&delta_wing::deck(), usize::MAX).unwrap()
 }
 
 fn true_factors() -> Vec<f64> {
@@ -12,8 +12,8 @@ fn true_factors() -> Vec<f64> {
 
 #[test]
 fn first_model_has_wrong_gages_and_true_masses() {
-    let model = first_model(&wing()).unwrap();
-    let right = wing().structure().unwrap();
+    let model = first_model();
+    let right = delta_wing::deck().structure().unwrap();
     let pairs = model.structure().elements().iter().zip(right.elements());
     for (first, right) in pairs {
         let group = GROUPS.iter().find(|g| g.elements.contains(&right.label));
@@ -30,7 +30,7 @@ fn first_model_has_wrong_gages_and_true_masses() {
         .iter()
         .map(|p| p.name.as_str())
         .collect_vec();
-    assert_eq!(names, GROUPS.map(|g| g.name));
+    assert!(names.iter().eq(GROUPS.iter().map(|group| &group.name)));
     let condensed = model.matrices(&[1.0; 21]).unwrap().mass;
     let b = model.condense(&[1.0; 21]).unwrap().transformation;
     let expected = b.tr_mul(&(DMatrix::from_diagonal(&lumped_mass(&right)) * &b));
@@ -43,13 +43,11 @@ fn first_model_has_wrong_gages_and_true_masses() {
 
 #[test]
 fn test_modes_are_ten_of_the_whole_wing_sampled() {
-    let model = first_model(&wing()).unwrap();
+    let model = first_model();
     let mass = model.matrices(&[1.0; 21]).unwrap().mass;
-    let test = test_modes(&wing())
-        .and_then(|test| test.scaled_with(&mass))
-        .unwrap();
+    let test = delta_wing::test_modes().scaled_with(&mass).unwrap();
     assert_eq!((test.len(), test.shapes().shape()), (10, (19, 10)));
-    let whole = wing().modes().unwrap();
+    let whole = whole();
     let grids = measured_grids(model.structure());
     for (column, mode) in TEST_MODES.into_iter().enumerate() {
         assert_relative_eq!(
@@ -80,7 +78,7 @@ fn test_modes_are_ten_of_the_whole_wing_sampled() {
 
 #[test]
 fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
-    let whole = wing().modes().unwrap().modes.frequencies_hz();
+    let whole = whole().modes.frequencies_hz();
     let separation = |mode: usize| whole[mode] / whole[mode - 1] - 1.0;
     let left_out = (1..=12)
         .filter(|mode| !TEST_MODES.contains(mode))
@@ -90,13 +88,9 @@ fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
     assert_eq!(format!("{:.4}", separation(8)), "0.0160");
     assert!((1..12).all(|mode| mode == 8 || separation(mode) > 0.06));
     // The wrong gages exchange them: what answers mode 8 is above what answers mode 9.
-    let first = first_model(&wing())
-        .and_then(|model| model.matrices(&[1.0; 21]))
-        .unwrap();
+    let first = first_model().matrices(&[1.0; 21]).unwrap();
     let modes = solve(&first.stiffness, &first.mass, 19).unwrap();
-    let right = first_model(&wing())
-        .and_then(|model| model.matrices(&true_factors()))
-        .unwrap();
+    let right = first_model().matrices(&true_factors()).unwrap();
     let truth = solve(&right.stiffness, &right.mass, 12).unwrap();
     let cross = cross_orthogonality(&modes, &truth, &first.mass).unwrap();
     let answers = pair_modes(&cross).unwrap().analysis_mode.to_vec();
@@ -107,9 +101,9 @@ fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
 
 #[test]
 fn groups_are_all_covers_and_webs_once_where_their_names_say() {
-    let model = first_model(&wing()).unwrap();
+    let model = first_model();
     let structure = model.structure();
-    let grouped = GROUPS.iter().flat_map(|group| group.elements).copied();
+    let grouped = GROUPS.iter().flat_map(|group| &group.elements).copied();
     let mut grouped = grouped.collect_vec();
     grouped.sort_unstable();
     assert_eq!(grouped, (1..=53).collect_vec());

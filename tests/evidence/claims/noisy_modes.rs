@@ -1,6 +1,6 @@
 //! Noisy test modes: the noise, what Appendix B makes of it, and the numbers of the study by other routes.
 
-use crate::evidence::noisy_modes::{Found, NOISY_CASE, NoisyRun, SEEDS, study};
+use crate::evidence::noisy_modes::{NOISY_CASE, RUNS, SEEDS, test_modes};
 use crate::prelude::*;
 
 fn case() -> Case {
@@ -127,64 +127,57 @@ properties! {
     }
 }
 
-/// The three correlations of a run with the test modes that each was given.
-fn sides(run: &NoisyRun) -> [(&Found, Modes); 3] {
+/// The modes of the seeds, and that the box is held.
+#[test]
+fn test_modes_are_noisy_orthogonal_and_screened_ones_of_a_held_box() {
     let (exact, mass) = (exact(), case().reconstruction.mass());
-    let raw = run.seed.map_or_else(
-        || exact.clone(),
-        |seed| with_noise(&exact, Noise::USUAL, seed).unwrap(),
-    );
+    assert_eq!(test_modes(0)[0], exact);
+    let raw = with_noise(&exact, Noise::USUAL, 7).unwrap();
     let screened = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
-    assert_eq!(screened.kept, run.kept);
     let orthogonal = orthogonalize(&raw, &mass).unwrap().modes;
-    [
-        (&run.raw, raw),
-        (&run.orthogonal, orthogonal),
-        (&run.screened, screened.modes),
-    ]
+    assert_eq!(test_modes(7), [raw, orthogonal, screened.modes]);
+    let points = dynamic_points(&case().reconstruction).unwrap();
+    let direction = Vector3::z_axis();
+    let points = points.into_iter().map(|position| MeasuringPoint {
+        position,
+        direction,
+    });
+    let motions = [Motion::Plunge, Motion::Roll, Motion::Pitch];
+    let vectors = rigid_body_vectors(&motions, &points.collect_vec()).unwrap();
+    let first = case()
+        .model()
+        .and_then(|model| Ok(model.matrices(&[1.0; 15])?))
+        .unwrap();
+    let refused = balance(&exact, &first.stiffness, &first.mass, &vectors);
+    assert!(matches!(refused, Err(Error::Supported { .. })));
 }
 
 #[test]
 fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
-    let first = &study().runs[0];
-    assert_eq!((first.seed, &first.kept), (None, &(0..9).collect()));
     let mut case = case();
     case.settings.inner.step = StepRule::Matrix;
-    let result = case_run(&case);
-    let passes = &result.correlation.passes;
-    let best = (0..passes.len()).min_by(|a, b| {
-        let sum = |pass: &usize| passes[*pass].check.errors.sum();
-        sum(a).total_cmp(&sum(b))
-    });
-    let best = best.unwrap();
-    for found in [&first.raw, &first.orthogonal, &first.screened] {
-        assert_eq!(found.converged, result.correlation.converged);
-        assert_eq!(
-            found.iterations,
-            passes
-                .iter()
-                .map(|pass| pass.inner.iterations.len())
-                .sum::<usize>()
-        );
-        assert_alike(
-            found.gages_in.iter(),
-            &result.pass_gages[best],
-            SAME_HISTORY,
-        );
-        assert!(relative_error(found.error_sum, passes[best].check.errors.sum()) < SAME_HISTORY);
+    let run = case_run(&case);
+    let gages = case
+        .model()
+        .unwrap()
+        .sizes(&run.correlation.best_factors)
+        .unwrap();
+    let passes = run.correlation.passes.iter();
+    let iterations: usize = passes.map(|pass| pass.inner.iterations.len()).sum();
+    let best = run.correlation.best_check().errors.sum();
+    for found in &RUNS[0] {
+        assert_eq!(found.numbers[6], iterations as f64);
+        assert_alike(&found.gages_in, &gages[..15], SAME_HISTORY);
+        assert!(relative_error(found.numbers[3], 100.0 * best) < SAME_HISTORY);
     }
 }
 
 #[test]
 fn errors_are_those_of_a_model_with_the_gages_found() {
-    let case = case();
-    assert_eq!(
-        study().runs.iter().filter_map(|run| run.seed).collect_vec(),
-        SEEDS.collect_vec()
-    );
-    for run in &study().runs {
-        for (found, test) in sides(run) {
-            let model = case.model_with(&found.gages_in).unwrap();
+    assert_eq!(RUNS.len(), SEEDS.count() + 1);
+    for (run, seed) in RUNS.iter().zip(0..) {
+        for (found, test) in run.iter().zip(test_modes(seed)) {
+            let model = case().model_with(&found.gages_in).unwrap();
             let errors = |test: &Modes| {
                 model
                     .analyze(&[1.0; 15], test, None)
@@ -193,14 +186,14 @@ fn errors_are_those_of_a_model_with_the_gages_found() {
                     .errors
             };
             let truth = errors(&exact());
+            let [all, shear, membrane, sum, frequency, shape, _] = found.numbers;
             // Nine shear panels and six membranes.
-            let squares =
-                9.0 * found.shear_gage_rms.powi(2) + 6.0 * found.membrane_gage_rms.powi(2);
+            let squares = 9.0 * shear.powi(2) + 6.0 * membrane.powi(2);
             for (found, expected) in [
-                (found.error_sum, errors(&test).sum()),
-                (found.true_frequency_rms, truth.frequency_rms()),
-                (found.true_shape_rms, truth.shape_rms()),
-                (found.gage_rms, (squares / 15.0).sqrt()),
+                (sum, 100.0 * errors(&test).sum()),
+                (frequency, 100.0 * truth.frequency_rms()),
+                (shape, 100.0 * truth.shape_rms()),
+                (all, (squares / 15.0).sqrt()),
             ] {
                 assert!(
                     relative_error(found, expected) < DIFFERENCE_ROUND_OFF,

@@ -164,7 +164,7 @@ fn links_are_followed_and_modes_are_those_of_new_files() {
 fn new_files_and_folders_have_the_rights_of_the_umask() {
     let folder = new_folder();
     let program = assert_cmd::cargo::cargo_bin("corfem");
-    let shell = "umask 027; \"$0\" cases 4 -q -o file && \"$0\" figures -q --folder out && stat -c %a file out out/truncation.svg";
+    let shell = "umask 027; \"$0\" cases 4 -q -o file && \"$0\" figures -q --folder out && stat -c %a file out out/box_points.svg";
     let output = Command::new("sh")
         .args(["-c", shell])
         .arg(program)

@@ -1,6 +1,6 @@
 //! A wing of any size: a box of ribs and spars, every member in one group.
 
-use crate::common::known::wing::MESHES;
+use crate::common::wing::MESHES;
 use crate::prelude::*;
 
 fn free_dof([ribs, chord, depth]: [usize; 3]) -> usize {

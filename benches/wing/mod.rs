@@ -3,12 +3,20 @@
 //! Rods lie between neighboring grids, a shear panel in every cell of a rib or spar, membranes on both surfaces; the root is held.
 //! So no grid can move freely, whatever the numbers are. $x$ points aft, $y$ outboard, $z$ up; ribs lie along the stream.
 
-use super::whole::of_elements;
+pub mod whole;
+
 use corfem::method::error::Error;
 use corfem::method::model::{FiniteElementModel, Parameter};
 use corfem::method::structure::{Element, ElementKind, Grid, Material, Structure};
 use corfem::sparse::{SparseMatrix, WholeModel};
 use nalgebra::{DMatrix, Vector3};
+use whole::of_elements;
+
+/// Factors from 0.75 to 1.3 that the groups of a wing want.
+pub fn planted_factors(count: usize) -> Vec<f64> {
+    let pattern = [1.0, 1.2, 0.8, 1.1, 0.75, 1.0, 1.3, 0.9];
+    pattern.into_iter().cycle().take(count).collect()
+}
 
 /// Sorts of members, each of which is divided into zones along the span.
 pub const SORTS: [&str; 5] = [
