@@ -4,7 +4,7 @@ use super::concern::{Check, Concern, Grade, NONE, some};
 use crate::{
     files::error::FileError,
     method::error::Error,
-    sparse::{FINITE, HalfUnit, rigid_bodies::BodyFinding},
+    sparse::{BodyFinding, FINITE, HalfUnit},
 };
 use std::fmt::Display;
 

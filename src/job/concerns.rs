@@ -59,10 +59,8 @@ impl PreparedJob {
         let lowest = lowest.first().copied();
         let said = source
             .whole
-            .body_findings(|row| source.row_name(row))?
-            .into_iter()
-            .map(|own| of_bodies(&own.beside(lowest)));
-        let mut all: Vec<Concern> = said.collect();
+            .body_findings(|row| source.row_name(row), lowest)?;
+        let mut all: Vec<Concern> = said.iter().map(of_bodies).collect();
         let is_said = self.loaded.job.model.rigid_bodies.is_some();
         if is_said && source.whole.rigid_bodies()?.rigid() > 0 {
             all.push(Concern::not_checked(

@@ -199,11 +199,7 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
     let lowest = modes.frequencies_hz().first().copied();
     let rigid_body = found.rigid_body.ncols();
     Ok(WholeModes {
-        doubtful: whole
-            .body_findings(name)?
-            .into_iter()
-            .map(|finding| finding.beside(lowest))
-            .collect(),
+        doubtful: whole.body_findings(name, lowest)?,
         counted: motions_with_mass(&mass).map(|rows| rows - rigid_body),
         dof,
         modes,

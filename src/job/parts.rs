@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     files::error::FileError,
-    sparse::{SparseMatrix, WholeShare, brackets::Excess},
+    sparse::{SparseMatrix, WholeShare},
 };
 
 impl LoadedJob {
@@ -35,24 +35,23 @@ impl LoadedJob {
             if parts.is_empty() {
                 continue;
             }
-            let excess = Excess::beside(what, first)?;
             for (place, (name, part)) in parts.iter().enumerate() {
                 let found = [
                     (
                         "negative-",
-                        excess.of(0.0, &[(1.0, part)]),
+                        whole.is_negative(what, first, &[(1.0, part)]),
                         "has negative energy, more than its digits explain",
                     ),
                     (
                         "not-part-",
-                        excess.of(1.0, &[(-1.0, part)]),
+                        whole.is_negative(what, first, &[(1.0, first), (-1.0, part)]),
                         "is not part of the first model's, which without it has negative energy",
                     ),
                 ];
                 for (kind, found, what) in found {
                     let (grade, kind, words) = match found {
-                        Ok(None) => continue,
-                        Ok(Some(_)) => {
+                        Ok(false) => continue,
+                        Ok(true) => {
                             let words = format!("The matrix of parameter \"{name}\" {what}.");
                             (Grade::Doubt, kind, words)
                         }

@@ -5,7 +5,7 @@ use crate::files::test_data::row_name;
 use crate::job::concerns::OPEN;
 use crate::job::of_bodies;
 use crate::present::table::{Digits, Table, counted, numbers};
-use crate::sparse::rigid_bodies::BodyFinding;
+use crate::sparse::BodyFinding;
 use crate::sparse::whole_modes::WholeModes;
 
 const FREQUENCY: Digits = Digits::Significant(7);

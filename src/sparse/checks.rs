@@ -6,10 +6,9 @@ use crate::method::linear_algebra::{
 };
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::linalg::matmul::matmul;
-use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Accum, MatMut, Par, Side};
+use faer::{Accum, MatMut, MatRef, Par, Side};
 use nalgebra::{DMatrix, DVector};
 use std::borrow::Borrow;
 
@@ -20,38 +19,23 @@ pub(crate) fn places_above(numbers: &DVector<f64>, limit: f64) -> Vec<usize> {
         .collect()
 }
 
+/// Adds $A B$, times a number, to a matrix of many rows.
+fn add_product(into: &mut DMatrix<f64>, a: MatRef<f64>, b: MatRef<f64>, number: f64) {
+    let (rows, columns) = into.shape();
+    let into = MatMut::from_column_major_slice_mut(into.as_mut_slice(), rows, columns);
+    matmul(into, Accum::Add, a, b, number, Par::Seq);
+}
+
 /// $A^t B$ of matrices of many rows.
 pub(crate) fn transposed_product(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     let mut product = DMatrix::zeros(a.ncols(), b.ncols());
-    let (rows, columns) = product.shape();
-    let into = MatMut::from_column_major_slice_mut(product.as_mut_slice(), rows, columns);
-    matmul(
-        into,
-        Accum::Replace,
-        as_faer(a).transpose(),
-        as_faer(b),
-        1.0,
-        Par::Seq,
-    );
+    add_product(&mut product, as_faer(a).transpose(), as_faer(b), 1.0);
     product
 }
 
 /// $A^t A$.
 pub(crate) fn gram(a: &DMatrix<f64>) -> DMatrix<f64> {
-    let count = a.ncols();
-    let mut product = DMatrix::zeros(count, count);
-    let whole = BlockStructure::Rectangular;
-    triangular::matmul(
-        MatMut::from_column_major_slice_mut(product.as_mut_slice(), count, count),
-        BlockStructure::TriangularLower,
-        Accum::Replace,
-        as_faer(a).transpose(),
-        whole,
-        as_faer(a),
-        whole,
-        1.0,
-        Par::Seq,
-    );
+    let mut product = transposed_product(a, a);
     product.fill_upper_triangle_with_lower_triangle();
     product
 }
@@ -72,9 +56,7 @@ pub(super) fn independent(
 
 /// Subtracts $A B$ from a matrix of many rows.
 pub(crate) fn take_product(from: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
-    let (rows, columns) = from.shape();
-    let into = MatMut::from_column_major_slice_mut(from.as_mut_slice(), rows, columns);
-    matmul(into, Accum::Add, as_faer(a), as_faer(b), -1.0, Par::Seq);
+    add_product(from, as_faer(a), as_faer(b), -1.0);
 }
 
 /// Hands on a matrix whose entries are all finite.

@@ -16,9 +16,24 @@ pub(crate) fn stiffness_of<'a>(
     count: usize,
     elements: impl Iterator<Item = (&'a ElementMatrix, f64)>,
 ) -> Result<SparseMatrix, Error> {
-    let part = |(element, size): (&'a ElementMatrix, f64)| (size, &element.dof[..], &element.unit);
-    let parts: Vec<_> = elements.map(part).collect();
-    SparseMatrix::of_parts("stiffness", count, &parts, 0.0)
+    sum("stiffness", count, elements, 0.0)
+}
+
+/// The sum (`count` × `count`) of elements' stiffness, each times its number; entries no larger than `least` count as nothing.
+fn sum<'a>(
+    what: &'static str,
+    count: usize,
+    elements: impl Iterator<Item = (&'a ElementMatrix, f64)>,
+    least: f64,
+) -> Result<SparseMatrix, Error> {
+    let mut all = Vec::new();
+    for (ElementMatrix { dof, unit, .. }, scale) in elements {
+        let entries = unit.iter().enumerate();
+        let entries =
+            entries.map(|(at, own)| (dof[at % dof.len()], dof[at / dof.len()], scale * own));
+        all.extend(entries.filter(|entry| entry.2.abs() > least));
+    }
+    SparseMatrix::new(what, count, count, all)
 }
 
 /// Volume an element of unit size lumps at each of its corners, in³ per in of gage or in² of area.
@@ -121,9 +136,9 @@ fn resisting<'a>(
     let whole = structure.elements().iter().zip(structure.corners());
     let part = |(matrix, (element, corners)): (&'a ElementMatrix, (&Element, &Vec<Point>))| {
         let scale = 1.0 / largest_entry(matrix, element, corners);
-        (scale, &matrix.dof[..], &matrix.unit)
+        (matrix, scale)
     };
-    let parts: Vec<_> = elements.iter().zip(whole).map(part).collect();
+    let parts = elements.iter().zip(whole).map(part);
     let (what, count) = ("stiffness of the elements", structure.free_dof().len());
-    SparseMatrix::of_parts(what, count, &parts, 4.0 * f64::EPSILON)
+    sum(what, count, parts, 4.0 * f64::EPSILON)
 }

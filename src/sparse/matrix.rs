@@ -12,7 +12,7 @@ pub(super) const GIVEN: f64 = 1e-11;
 pub(super) const ASSEMBLED: f64 = 30.0 * f64::EPSILON;
 
 /// Half the unit of the last place with which a matrix's entries are written: a part of each, or one number for all. Zeros are exact.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct HalfUnit {
     part: f64,
     fixed: f64,
@@ -88,89 +88,38 @@ impl SparseMatrix {
             check_count("rows of a matrix", row.saturating_add(1), 1, rows)?;
             check_count("columns of a matrix", column.saturating_add(1), 1, columns)?;
         }
-        let mut entries = summed(entries);
-        entries.retain(|entry| entry.2 != 0.0);
-        Self::of_sorted(rows, columns, &entries, HalfUnit::of_each(0.0)).finite(what)
-    }
-
-    /// This matrix, unless an entry is beyond the range of numbers.
-    fn finite(self, what: &'static str) -> Result<Self, Error> {
-        let wrong = self.entries().find(|entry| !entry.2.is_finite());
-        if let Some((row, column, value)) = wrong {
-            let owner = || format!("entry ({row}, {column})");
-            require(false, what, owner, value, "a finite number")?;
-        }
-        Ok(self)
-    }
-
-    /// The sum (`size` × `size`) of small matrices with their rows, each times its number; entries of these no larger than `least` count as
-    /// nothing, and zeros are left out.
-    ///
-    /// Column by column, so that no more than one of them waits to be sorted.
-    pub(super) fn of_parts(
-        what: &'static str,
-        size: usize,
-        parts: &[(f64, &[usize], &DMatrix<f64>)],
-        least: f64,
-    ) -> Result<Self, Error> {
-        let mut starts = vec![0; size + 1];
-        let all = || parts.iter().flat_map(|(_, rows, _)| rows.iter());
-        all().for_each(|row| starts[row + 1] += 1);
-        (0..size).for_each(|row| starts[row + 1] += starts[row]);
-        let (mut next, mut owners) = (starts.clone(), vec![(0, 0); starts[size]]);
-        for (part, (_, rows, _)) in parts.iter().enumerate() {
-            for (column, &row) in rows.iter().enumerate() {
-                owners[next[row]] = (part, column);
-                next[row] += 1;
-            }
-        }
-        let (mut places, mut values) = (Vec::new(), Vec::new());
-        let (mut sums, mut is_met, mut met) = (vec![0.0; size], vec![false; size], Vec::new());
-        for column in 0..size {
-            for &(part, own) in &owners[starts[column]..starts[column + 1]] {
-                let (scale, rows, matrix) = parts[part];
-                let entries = rows.iter().enumerate();
-                let entries = entries.map(|(at, &row)| (row, scale * matrix[(at, own)]));
-                for (row, value) in entries.filter(|entry| entry.1.abs() > least) {
-                    if !is_met[row] {
-                        is_met[row] = true;
-                        met.push(row);
-                    }
-                    sums[row] += value;
-                }
-            }
-            met.sort_unstable();
-            for row in met.drain(..) {
-                if sums[row] != 0.0 {
-                    places.push([row as u32, column as u32]);
-                    values.push(sums[row]);
-                }
-                (sums[row], is_met[row]) = (0.0, false);
-            }
-        }
-        let matrix = Self {
-            rows: size,
-            columns: size,
-            places: Arc::new(places),
-            values,
-            half_unit: HalfUnit::of_each(0.0),
+        let matrix = Self::of(rows, columns, entries, |value| value != 0.0);
+        let wrong = matrix.entries().find(|entry| !entry.2.is_finite());
+        let Some((row, column, value)) = wrong else {
+            return Ok(matrix);
         };
-        matrix.finite(what)
+        let owner = || format!("entry ({row}, {column})");
+        require(false, what, owner, value, "a finite number").map(|()| matrix)
     }
 
-    fn of_sorted(
+    /// The matrix of entries in any order, those at one place as their sum in the order given, if it is one to keep.
+    fn of(
         rows: usize,
         columns: usize,
-        entries: &[(usize, usize, f64)],
-        half_unit: HalfUnit,
+        mut entries: Vec<(usize, usize, f64)>,
+        is_kept: fn(f64) -> bool,
     ) -> Self {
+        entries.sort_by_key(|&(row, column, _)| (column, row));
+        entries.dedup_by(|next, kept| {
+            let is_same = (next.0, next.1) == (kept.0, kept.1);
+            if is_same {
+                kept.2 += next.2;
+            }
+            is_same
+        });
+        entries.retain(|entry| is_kept(entry.2));
         let place = |&(row, column, _): &(usize, usize, f64)| [row as u32, column as u32];
         Self {
             rows,
             columns,
             places: Arc::new(entries.iter().map(place).collect()),
             values: entries.iter().map(|entry| entry.2).collect(),
-            half_unit,
+            half_unit: HalfUnit::of_each(0.0),
         }
     }
 
@@ -184,52 +133,49 @@ impl SparseMatrix {
         self.half_unit
     }
 
-    /// The half units of all entries at their places.
-    pub(super) fn half_units(&self) -> Self {
-        let own = self.values.iter().map(|value| self.half_unit.of(*value));
+    /// The matrix with another value at each place.
+    fn map(&self, value: impl Fn(f64) -> f64) -> Self {
+        let values = self.values.iter().map(|own| value(*own)).collect();
         Self {
-            values: own.collect(),
+            values,
             ..self.clone()
         }
     }
 
+    /// The half units of all entries at their places.
+    pub(super) fn half_units(&self) -> Self {
+        self.map(|value| self.half_unit.of(value))
+    }
+
     /// The matrix with zeros at the places of these entries where it has none.
     pub(super) fn with_places_of(self, entries: impl Iterator<Item = (usize, usize, f64)>) -> Self {
-        let starts = self.starts();
-        let new = entries.filter(|&entry| self.place(&starts, entry).is_none());
+        let new = entries.filter(|entry| self.place(entry.0, entry.1).is_none());
         let mut new: Vec<_> = new.map(|entry| (entry.0, entry.1, 0.0)).collect();
         if new.is_empty() {
             return self;
         }
         new.extend(self.entries());
-        Self::of_sorted(self.rows, self.columns, &summed(new), self.half_unit)
+        Self::of(self.rows, self.columns, new, |_| true).with_half_unit(self.half_unit)
     }
 
-    /// Places of the first entry of every column, and of the end.
-    pub(super) fn starts(&self) -> Vec<usize> {
-        let mut starts = vec![0; self.columns + 1];
-        self.places
-            .iter()
-            .for_each(|place| starts[place[1] as usize + 1] += 1);
-        for column in 0..self.columns {
-            starts[column + 1] += starts[column];
-        }
-        starts
+    /// Place of a row and column among all entries, if there is one.
+    pub(super) fn place(&self, row: usize, column: usize) -> Option<usize> {
+        let places = self.places.as_slice();
+        let found =
+            places.binary_search_by_key(&[column as u32, row as u32], |own| [own[1], own[0]]);
+        found.ok()
     }
 
-    /// Place of an entry's row and column among all, if there is one.
-    pub(super) fn place(&self, starts: &[usize], entry: (usize, usize, f64)) -> Option<u32> {
-        let own = starts[entry.1]..starts[entry.1 + 1];
-        let found = self.places[own.clone()].binary_search_by_key(&entry.0, |own| own[0] as usize);
-        found
-            .ok()
-            .and_then(|place| u32::try_from(own.start + place).ok())
+    /// The entry at a row and column.
+    fn at(&self, row: usize, column: usize) -> f64 {
+        self.place(row, column)
+            .map_or(0.0, |place| self.values[place])
     }
 
-    /// Adds values, each times a number, at places among the entries.
-    pub(super) fn add(&mut self, number: f64, places: &[u32], values: &Self) {
-        for (&place, value) in places.iter().zip(&values.values) {
-            self.values[place as usize] += number * value;
+    /// Adds values, each times a number, at their places among the entries.
+    pub(super) fn add(&mut self, number: f64, values: &[(usize, f64)]) {
+        for &(place, value) in values {
+            self.values[place] += number * value;
         }
     }
 
@@ -253,9 +199,9 @@ impl SparseMatrix {
     /// # Errors
     /// [`Error::Count`] and [`Error::Value`], as in [`Self::new`].
     pub fn of_dense(what: &'static str, matrix: &DMatrix<f64>) -> Result<Self, Error> {
-        let (rows, all) = (matrix.nrows(), matrix.iter().enumerate());
-        let entries = all.map(|(at, &value)| (at % rows, at / rows, value));
-        Self::new(what, rows, matrix.ncols(), entries.collect())
+        let columns = matrix.column_iter();
+        let columns = columns.map(|column| column.iter().copied().enumerate().collect());
+        Self::of_columns(what, matrix.nrows(), &columns.collect::<Vec<_>>())
     }
 
     /// Number of rows.
@@ -276,7 +222,7 @@ impl SparseMatrix {
 
     /// The rows and values of one column.
     pub(super) fn column(&self, column: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
-        let up_to = |end: usize| {
+        let up_to = |end| {
             self.places
                 .partition_point(|place| (place[1] as usize) < end)
         };
@@ -287,17 +233,8 @@ impl SparseMatrix {
 
     /// True if the matrix is square and every entry exactly that of the other triangle.
     pub fn is_symmetric(&self) -> bool {
-        if self.rows != self.columns {
-            return false;
-        }
-        // The mirrors of the entries, column by column, are those of every row from the left.
-        let mut next = self.starts();
-        self.entries().all(|(row, column, value)| {
-            let mirror = next[row];
-            next[row] += 1;
-            self.places.get(mirror) == Some(&[column as u32, row as u32])
-                && self.values[mirror] == value
-        })
+        let is_mirrored = |(row, column, value)| self.at(column, row) == value;
+        self.rows == self.columns && self.entries().all(is_mirrored)
     }
 
     /// The transpose.
@@ -306,8 +243,8 @@ impl SparseMatrix {
         let turned = self
             .entries()
             .map(|(row, column, value)| (column, row, value));
-        let entries = summed(turned.collect());
-        Self::of_sorted(self.columns, self.rows, &entries, self.half_unit)
+        let turned = Self::of(self.columns, self.rows, turned.collect(), |_| true);
+        turned.with_half_unit(self.half_unit)
     }
 
     /// The product with a dense matrix (columns × m), rows × m.
@@ -333,16 +270,16 @@ impl SparseMatrix {
 
     /// $V^t A$ for transposed shapes $V^t$ (m × rows) at the columns that have entries.
     pub(super) fn loads(&self, transposed_shapes: &DMatrix<f64>) -> DMatrix<f64> {
-        let modes = transposed_shapes.nrows();
-        let mut loads = DMatrix::zeros(modes, self.occupied().len());
-        let (mut at, mut last) = (0, self.places.first().map(|place| place[1]));
-        let entries = self.places.iter().zip(&self.values);
-        let entries = entries.map(|(&[row, column], &value)| {
-            at += usize::from(last != Some(column));
-            last = Some(column);
-            (row as usize, at, value)
-        });
-        add_columns(entries, transposed_shapes, &mut loads);
+        let count = transposed_shapes.nrows();
+        let mut loads = DMatrix::zeros(count, self.occupied().len());
+        let (mut at, mut last) = (0, self.places.first().map_or(0, |place| place[1] as usize));
+        for (row, column, value) in self.entries() {
+            at += usize::from(last != column);
+            last = column;
+            let load = loads.as_mut_slice()[at * count..].iter_mut();
+            let both = load.zip(&transposed_shapes.as_slice()[row * count..][..count]);
+            both.for_each(|(load, shape)| *load += value * shape);
+        }
         loads
     }
 
@@ -351,13 +288,11 @@ impl SparseMatrix {
     /// # Errors
     /// [`Error::WrongShape`] when they do not fit.
     pub fn through(&self, transposed_shapes: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-        let modes = transposed_shapes.nrows();
-        check_shape("transposed shapes", transposed_shapes, modes, self.rows)?;
-        check_shape("transposed shapes", transposed_shapes, modes, self.columns)?;
-        let own = transposed_shapes.select_columns(&self.occupied());
-        Ok(symmetric_part(
-            &(self.loads(transposed_shapes) * own.transpose()),
-        ))
+        let (count, own) = (transposed_shapes.nrows(), self.occupied());
+        check_shape("transposed shapes", transposed_shapes, count, self.rows)?;
+        check_shape("transposed shapes", transposed_shapes, count, self.columns)?;
+        let own = transposed_shapes.select_columns(&own).transpose();
+        Ok(symmetric_part(&(self.loads(transposed_shapes) * own)))
     }
 
     /// Refuses a matrix that is not square and symmetric to within round-off, row by row.
@@ -370,17 +305,17 @@ impl SparseMatrix {
     /// [`Error::WrongShape`] unless it is square; [`Error::Value`] with the difference of an entry from its mirror.
     pub fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
         check_length(what, self.columns, self.rows)?;
-        if self.is_symmetric() {
-            return Ok(());
-        }
-        let (starts, diagonal) = (self.starts(), self.diagonal().map(|own| own.abs().sqrt()));
-        let apart = |entry: (usize, usize, f64)| {
-            let (row, column, value) = entry;
-            let mirror = self.place(&starts, (column, row, value));
-            let mirror = mirror.map_or(0.0, |place| self.values[place as usize]);
+        let diagonal = self.diagonal().map(|own| own.abs().sqrt());
+        let apart = |(row, column, value): (usize, usize, f64)| {
+            let mirror = self.at(column, row);
             let difference = (value - mirror).abs();
             let scale = difference.max(value.abs().min(mirror.abs()));
-            let part = difference / scale.max(diagonal[row] * diagonal[column]);
+            let scale = scale.max(diagonal[row] * diagonal[column]);
+            let part = if difference > 0.0 {
+                difference / scale
+            } else {
+                0.0
+            };
             (row.max(column), row.min(column), part)
         };
         let wrong = self.entries().map(apart).filter(|entry| entry.2 > GIVEN);
@@ -417,22 +352,15 @@ impl SparseMatrix {
     /// # Errors
     /// [`Error::Count`] without rows.
     pub(crate) fn at_rows(&self, rows: &[usize]) -> Result<Self, Error> {
-        Ok(self
-            .at_columns(rows)?
-            .transposed()
-            .at_columns(rows)?
-            .transposed())
+        let turned = self.at_columns(rows)?.transposed();
+        Ok(turned.at_columns(rows)?.transposed())
     }
 
     /// The largest entry in size, and the squares of all entries over it.
     pub(super) fn squares(&self) -> (f64, Self) {
         let sizes = self.values.iter().map(|value| value.abs());
         let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);
-        let mut squares = self.clone();
-        for value in &mut squares.values {
-            *value = (*value / largest).powi(2);
-        }
-        (largest, squares)
+        (largest, self.map(|value| (value / largest).powi(2)))
     }
 
     /// The matrix at some of its columns, ascending.
@@ -455,32 +383,4 @@ impl SparseMatrix {
             .for_each(|(row, column, value)| dense[(row, column)] = value);
         dense
     }
-}
-
-/// Adds some columns, each times a number, to others: from one, into one, the number.
-fn add_columns(
-    all: impl Iterator<Item = (usize, usize, f64)>,
-    from: &DMatrix<f64>,
-    into: &mut DMatrix<f64>,
-) {
-    let count = from.nrows();
-    let (from, into) = (from.as_slice(), into.as_mut_slice());
-    for (a, b, number) in all {
-        let into = into[b * count..][..count].iter_mut();
-        let both = into.zip(&from[a * count..][..count]);
-        both.for_each(|(into, from)| *into += number * from);
-    }
-}
-
-/// Entries column by column and in each from the first row down, those at one place as their sum in the order given.
-fn summed(mut entries: Vec<(usize, usize, f64)>) -> Vec<(usize, usize, f64)> {
-    entries.sort_by_key(|&(row, column, _)| (column, row));
-    entries.dedup_by(|next, kept| {
-        let is_same = (next.0, next.1) == (kept.0, kept.1);
-        if is_same {
-            kept.2 += next.2;
-        }
-        is_same
-    });
-    entries
 }

@@ -4,23 +4,21 @@
 //! specification.
 
 mod assurance;
-pub(crate) mod brackets;
 mod checks;
 #[doc(hidden)]
 pub mod elements;
 #[doc(hidden)]
 pub mod factorization;
-mod lowest_modes;
+mod free;
 mod mass_changes;
 mod matrix;
+mod modes;
 mod ordering;
 mod place;
 pub mod random;
 mod residual_vectors;
-pub(crate) mod rigid_bodies;
 mod sensor_model;
 mod share;
-mod subspace;
 pub(crate) mod visibility;
 pub mod whole_modes;
 mod whole_model;
@@ -34,13 +32,13 @@ pub(crate) use checks::{
     transposed_product,
 };
 pub use factorization::{Factor, Work};
-pub use lowest_modes::{CountedModes, FINITE, MOST_DENSE_ROWS};
+pub use free::{BodyFinding, Places, RigidBodies, Support};
 #[doc(hidden)]
 pub use mass_changes::normalize_with_mass;
 pub(crate) use matrix::HalfUnit;
 pub use matrix::SparseMatrix;
+pub use modes::{CountedModes, FINITE, MOST_DENSE_ROWS};
 pub(crate) use place::{Deflections, Place, is_held};
-pub use rigid_bodies::{BodyFinding, Places, RigidBodies, Support};
 pub use sensor_model::{Candidates, ModeWeight, Pair, SensorModel};
 pub(crate) use sensor_model::{check_weights, is_one_root, parts_of};
 pub use share::{ParameterMatrix, Share, UNSEEN_SHARE, WholeShare};

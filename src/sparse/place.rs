@@ -1,7 +1,7 @@
 //! An exact analysis of a whole model that can tell more than its modes: their exact slopes at the sensors, and further shapes in which a
 //! change is followed.
 
-use super::lowest_modes::{FINITE, Flexibility};
+use super::modes::{FINITE, Flexibility};
 use super::random::random_block;
 use super::residual_vectors::{leading_loads, residual_vectors};
 use super::share::{ParameterMatrix, WholeShare};
@@ -92,8 +92,7 @@ impl Place {
         check_count("modes", least, 1, whole.dof_count())?;
         let mut taken = most;
         let (found, rigid_body, flexibility) = loop {
-            let asked = least.min(taken)..=taken;
-            let (found, flexibility) = whole.modes_of((&stiffness, &mass), asked, near)?;
+            let (found, flexibility) = whole.modes_of((&stiffness, &mass), taken, near)?;
             check_count(FINITE, least, 1, found.vibrations.len())?;
             let is_all = found.next.is_none();
             let all = (found.vibrations, found.next);

@@ -1,14 +1,14 @@
 //! A model given by sparse matrices, whatever made them, and what the loops are handed of it.
 
 use super::factorization::{FactorizationPlan, Work};
-use super::lowest_modes::{CountedModes, FINITE, Flexibility, modes_at_most};
-use super::matrix::ASSEMBLED;
+use super::free::{bracket, slack};
+use super::matrix::{ASSEMBLED, GIVEN};
+use super::modes::{CountedModes, FINITE, Flexibility, modes_at_most};
 use super::place::{Deflections, Place};
-use super::rigid_bodies::BodyFinding;
 use super::sensor_model::{Pair, SensorModel};
 use super::share::{Share, WholeShare};
 use super::visibility::rows_with_sensor;
-use super::{HalfUnit, RigidBodies, SparseMatrix, Support};
+use super::{BodyFinding, HalfUnit, RigidBodies, SparseMatrix, Support};
 use crate::method::error::{Error, check_count, positive};
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
@@ -63,8 +63,8 @@ struct Parts {
 struct Spots {
     /// Rows, ascending.
     rows: Vec<usize>,
-    /// Places of its entries among those of the whole.
-    places: Vec<u32>,
+    /// Places of its entries among those of the whole, with their values.
+    values: Vec<(usize, f64)>,
 }
 
 impl WholeModel {
@@ -122,21 +122,19 @@ impl WholeModel {
             matrix.with_places_of(own.flat_map(|share| share.matrix().entries()))
         };
         let first = [of_matrix(false, stiffness), of_matrix(true, mass)];
-        let starts = [first[0].starts(), first[1].starts()];
         let spots = |WholeParameter { share, .. }: &WholeParameter| {
             let (at, part) = (usize::from(share.is_mass()), share.matrix());
-            let places = part.entries();
-            let places = places.map(|entry| first[at].place(&starts[at], entry));
-            Some(Spots {
+            let value = |(row, column, value)| Some((first[at].place(row, column)?, value));
+            Spots {
                 rows: part.occupied(),
-                places: places.collect::<Option<_>>()?,
-            })
+                values: part.entries().filter_map(value).collect(),
+            }
         };
-        let spots = parameters.iter().map(spots).collect::<Option<_>>();
+        let spots = parameters.iter().map(spots).collect();
         let all: Vec<&SparseMatrix> = first.iter().chain(&support.resisting).collect();
         let plan = Arc::new(FactorizationPlan::of_sum(&all)?);
         Ok(Self(Arc::new(Parts {
-            spots: spots.ok_or(Error::no_convergence("sparse assembly"))?,
+            spots,
             first,
             parameters,
             plan,
@@ -175,16 +173,38 @@ impl WholeModel {
         self.0.first[0].half_unit()
     }
 
-    /// Sentences about these motions, with the rows' names.
+    /// Findings about these motions, with the rows' names and the lowest frequency found.
     ///
     /// # Errors
     /// As [`Self::rigid_bodies`].
     pub(crate) fn body_findings(
         &self,
         name: impl Fn(usize) -> String,
+        lowest_hz: Option<f64>,
     ) -> Result<Vec<BodyFinding>, Error> {
         let [stiffness, mass] = &self.0.first;
-        self.rigid_bodies()?.findings([stiffness, mass], name)
+        let bodies = self.rigid_bodies()?;
+        bodies.findings([stiffness, mass], name, lowest_hz)
+    }
+
+    /// True if a sum of symmetric matrices, each times its number, has negative energy whatever the rounding of all. `whole` is a first matrix
+    /// that they are parts of.
+    ///
+    /// # Errors
+    /// Errors of the factorization.
+    pub(crate) fn is_negative(
+        &self,
+        what: &'static str,
+        whole: &SparseMatrix,
+        terms: &[(f64, &SparseMatrix)],
+    ) -> Result<bool, Error> {
+        let sizes = SparseMatrix::unit_scale(&whole.diagonal());
+        // An entry may be left of a sum whose terms were as large as the diagonal, and carry their rounding as a mirrored one does.
+        let mut all = sizes.map(|size| terms.len() as f64 * GIVEN * size * size);
+        for (_, matrix) in terms {
+            all += slack(matrix, &sizes);
+        }
+        Ok(bracket(&self.0.plan, what, terms, all)?.negative_count() > 0)
     }
 
     /// Rows in those parts of the model in which a sensor reads a row. What two parameters couple may cancel, but not at all factors;
@@ -267,12 +287,12 @@ impl WholeModel {
         check_length("parameter factors", factors.len(), self.parameters().len())?;
         let mut both = self.0.first.clone();
         let parts = self.parameters().iter().zip(&self.0.spots);
-        for ((WholeParameter { name, share, .. }, Spots { places, .. }), &factor) in
+        for ((WholeParameter { name, share, .. }, Spots { values, .. }), &factor) in
             parts.zip(factors)
         {
             positive("factor", || format!("parameter {name}"), factor)?;
             if factor != 1.0 {
-                both[usize::from(share.is_mass())].add(factor - 1.0, places, share.matrix());
+                both[usize::from(share.is_mass())].add(factor - 1.0, values);
             }
         }
         let [stiffness, mass] = both;
@@ -300,7 +320,7 @@ impl WholeModel {
     pub fn modes(&self, factors: &[f64], count: usize) -> Result<CountedModes, Error> {
         check_count("modes", count, 1, self.dof_count())?;
         let (stiffness, mass) = self.at(factors)?;
-        let (found, _) = self.modes_of((&stiffness, &mass), count..=count, None)?;
+        let (found, _) = self.modes_of((&stiffness, &mass), count, None)?;
         check_count(FINITE, count, 1, found.vibrations.len())?;
         Ok(found)
     }
@@ -309,10 +329,10 @@ impl WholeModel {
     pub(super) fn modes_of(
         &self,
         matrices: (&SparseMatrix, &SparseMatrix),
-        counts: RangeInclusive<usize>,
+        most: usize,
         near: Option<&DMatrix<f64>>,
     ) -> Result<(CountedModes, Flexibility), Error> {
-        modes_at_most(matrices, counts, near, self.rigid_bodies()?, &self.0.plan)
+        modes_at_most(matrices, most, near, self.rigid_bodies()?, &self.0.plan)
     }
 
     /// The flexibility at a stiffness and mass.

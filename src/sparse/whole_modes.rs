@@ -2,14 +2,13 @@
 
 use super::WholeModel;
 use super::elements::moving_mass_entries;
-use super::lowest_modes::CountedModes;
+use super::modes::CountedModes;
 use super::place::turn_alike;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::modes::Modes;
 use crate::method::structure::StructuralDof;
-use crate::sparse::rigid_bodies::BodyFinding;
-use crate::sparse::{SparseMatrix, Support};
+use crate::sparse::{BodyFinding, SparseMatrix, Support};
 use nalgebra::{DMatrix, DVector};
 
 /// The degrees of freedom that move with mass.
@@ -65,8 +64,7 @@ pub fn whole_modes(
     let mass = SparseMatrix::new("mass", rows, rows, entries.collect())?;
     let whole = WholeModel::supported(stiffness.clone(), mass, Vec::new(), support.clone())?;
     let (stiffness, mass) = whole.at(&[])?;
-    let (CountedModes { vibrations, .. }, _) =
-        whole.modes_of((&stiffness, &mass), most..=most, None)?;
+    let (CountedModes { vibrations, .. }, _) = whole.modes_of((&stiffness, &mass), most, None)?;
     let mut at_rows = vibrations.shapes;
     let shapes = t.transposed().times(&at_rows)?;
     let modes = Modes::signed(vibrations.omega_squared, shapes.clone());
@@ -80,7 +78,7 @@ pub fn whole_modes(
         modes,
         at_rows,
         rigid_body,
-        doubtful: whole.body_findings(name)?,
+        doubtful: whole.body_findings(name, None)?,
         open: Vec::new(),
     })
 }

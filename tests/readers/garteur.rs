@@ -54,7 +54,7 @@ fn the_corrected_airplane_is_nearer_and_still_not_explained() {
     // Far beyond what eight numbers right but for their deviations make.
     assert!(corrected > 10.0 * 8.0 && !RESULT.verdict.is_within);
     // SciPy takes 33 (golden/least_squares.json) and looks for no lower place. At a wall round-off decides how many there are.
-    assert!(RESULT.found.analyses <= 55, "{}", RESULT.found.analyses);
+    assert!(RESULT.found.analyses <= 65, "{}", RESULT.found.analyses);
     // Of an end that noise does not explain nobody knows whether it is the lowest.
     assert!(!RESULT.found.is_lowest);
     // Frequencies alone are followed by shape, and where two modes change places the partner of one is another.

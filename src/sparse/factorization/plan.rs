@@ -13,11 +13,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Par, Side, Spec};
-use nalgebra::DVector;
 use serde::Serialize;
-use std::mem::take;
-use std::ops::Range;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Parts of a factorization that do not change with the sizes: the order in which the DOF are eliminated, and the places where the
@@ -31,8 +27,6 @@ pub struct FactorizationPlan {
     /// The lower triangle, column by column; the first entry of a column is the diagonal.
     pattern: SymbolicSparseColMat<usize>,
     symbolic: SymbolicCholesky<usize>,
-    /// Memory of the last factor that is no longer needed: new memory costs a large factorization an eighth of its time.
-    spare: Mutex<Vec<f64>>,
     /// Factorizations and eigensolutions made so far.
     factorizations: AtomicUsize,
     eigensolutions: AtomicUsize,
@@ -67,22 +61,17 @@ impl FactorizationPlan {
         let columns: Vec<Vec<usize>> = (0..count).map(column).collect();
         let order = order_of(&columns);
         let mut turn = vec![0; count];
-        order
-            .iter()
-            .enumerate()
-            .for_each(|(place, &dof)| turn[dof] = place);
-        let (mut column_starts, mut rows) = (vec![0], Vec::new());
-        for (column, &dof) in order.iter().enumerate() {
-            rows.extend(
-                columns[dof]
-                    .iter()
-                    .map(|&row| turn[row])
-                    .filter(|&row| row >= column),
-            );
-            rows[column_starts[column]..].sort_unstable();
-            column_starts.push(rows.len());
+        for (place, &dof) in order.iter().enumerate() {
+            turn[dof] = place;
         }
-        let pattern = SymbolicSparseColMat::new_checked(count, count, column_starts, None, rows);
+        let (mut starts, mut rows) = (vec![0], Vec::new());
+        for (column, &dof) in order.iter().enumerate() {
+            let own = columns[dof].iter().map(|&row| turn[row]);
+            rows.extend(own.filter(|&row| row >= column));
+            rows[starts[column]..].sort_unstable();
+            starts.push(rows.len());
+        }
+        let pattern = SymbolicSparseColMat::new_checked(count, count, starts, None, rows);
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
@@ -106,7 +95,6 @@ impl FactorizationPlan {
             turn,
             pattern,
             symbolic,
-            spare: Mutex::default(),
             factorizations: AtomicUsize::new(0),
             eigensolutions: AtomicUsize::new(0),
         })
@@ -152,10 +140,9 @@ impl FactorizationPlan {
             for (row, column, value) in matrix.entries() {
                 let (row, own) = (self.turn[row], self.turn[column]);
                 if last != own {
-                    let (rows, range) = self.column(own);
-                    rows.iter()
-                        .zip(range)
-                        .for_each(|(&row, place)| places[row] = place);
+                    for place in self.pattern.col_range(own) {
+                        places[self.pattern.row_idx()[place]] = place;
+                    }
                     last = own;
                 }
                 if row >= own {
@@ -166,80 +153,46 @@ impl FactorizationPlan {
         values
     }
 
-    /// The rows of a column's entries and the range of their places.
-    fn column(&self, column: usize) -> (&[usize], Range<usize>) {
-        let range = self.pattern.col_ptr()[column]..self.pattern.col_ptr()[column + 1];
-        (&self.pattern.row_idx()[range.clone()], range)
-    }
-
-    /// Scales entries so that those of the diagonal become one in size, and returns the scale.
-    pub(super) fn scale(&self, entries: &mut [f64]) -> DVector<f64> {
-        let size = |column: usize| match entries[self.pattern.col_ptr()[column]] {
-            0.0 => 1.0,
-            entry => 1.0 / entry.abs().sqrt(),
-        };
-        let scale = DVector::from_fn(self.order.len(), |column, _| size(column));
-        for column in 0..scale.len() {
-            let (rows, range) = self.column(column);
-            rows.iter()
-                .zip(&mut entries[range])
-                .for_each(|(&row, entry)| *entry *= scale[row] * scale[column]);
-        }
-        scale
-    }
-
-    /// Keeps the memory of a factor for the next.
-    pub(super) fn keep(&self, values: Vec<f64>) {
-        if let Ok(mut spare) = self.spare.lock() {
-            *spare = values;
-        }
-    }
-
-    /// $L$ and $D$ of given entries, and where a pivot is zero, in one thread whatever the library's global setting: its parallel kernels
-    /// have open reports of wrong results on large matrices.
-    pub(super) fn factor(&self, entries: &[f64]) -> Result<(Vec<f64>, Option<usize>), Error> {
+    /// $L$ and $D$ of given entries, in one thread whatever the library's global setting: its parallel kernels have open reports of wrong
+    /// results on large matrices.
+    pub(super) fn factor(&self, what: &'static str, entries: &[f64]) -> Result<Vec<f64>, Error> {
         self.factorizations.fetch_add(1, Relaxed);
-        let (symbolic, one) = (&self.symbolic, Par::Seq);
-        let mut values = self
-            .spare
-            .lock()
-            .map_or_else(|_| Vec::new(), |mut spare| take(&mut *spare));
-        values.resize(symbolic.len_val(), 0.0);
-        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(one, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch)
-            .map_err(|_| Error::no_convergence("sparse factorization"))?;
+        let symbolic = &self.symbolic;
+        let mut values = vec![0.0; symbolic.len_val()];
+        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default());
         let done = symbolic.factorize_numeric_ldlt(
             &mut values,
             SparseColMatRef::new(self.pattern.as_ref(), entries),
             Side::Lower,
             LdltRegularization::default(),
-            one,
-            MemStack::new(&mut memory),
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
             Spec::default(),
         );
-        let zero = done.err().map(|LdltError::ZeroPivot { index }| index);
-        Ok((values, zero))
+        let refused = |LdltError::ZeroPivot { index }| Error::NotPositiveDefinite {
+            what,
+            row: self.order[index],
+        };
+        done.map_err(refused)?;
+        Ok(values)
     }
 }
 
 /// Order of elimination of rows that are coupled to those in their columns. Neighbors coupled to the same rows, as those of one grid
 /// are, are one point of the mesh.
 fn order_of(columns: &[Vec<usize>]) -> Vec<usize> {
-    let points: Vec<&[Vec<usize>]> = columns.chunk_by(|a, b| a == b).collect();
-    let point_of: Vec<usize> = points
-        .iter()
-        .enumerate()
-        .flat_map(|(point, of)| vec![point; of.len()])
-        .collect();
-    let first_row = |point: usize| point_of.partition_point(|&other| other < point);
-    let near = |of: &&[Vec<usize>]| {
-        let mut near: Vec<usize> = of[0].iter().map(|&row| point_of[row]).collect();
+    let is_new = |row: &usize| *row == 0 || columns[*row] != columns[row - 1];
+    let mut first: Vec<usize> = (0..columns.len()).filter(is_new).collect();
+    first.push(columns.len());
+    let near = |own: &[usize]| {
+        let point = |row: &usize| first.partition_point(|first| first <= row) - 1;
+        let mut near: Vec<usize> = columns[own[0]].iter().map(point).collect();
         near.dedup();
         near
     };
-    let order = nested_dissection(&points.iter().map(near).collect::<Vec<_>>());
+    let points: Vec<Vec<usize>> = first.windows(2).map(near).collect();
+    let order = nested_dissection(&points).into_iter();
     order
-        .into_iter()
-        .flat_map(|point| first_row(point)..first_row(point + 1))
+        .flat_map(|point| first[point]..first[point + 1])
         .collect()
 }
