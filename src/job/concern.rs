@@ -2,7 +2,6 @@
 
 use crate::files::error::FileError;
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 
 /// The effect of a concern on a result, what matters most first.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -32,7 +31,6 @@ pub enum Check {
     #[default]
     FreeMotions,
     ModesMeasuredTwice,
-    OrderOfFrequencies,
     CommonFactor,
     Readings,
     Settings,
@@ -41,14 +39,12 @@ pub enum Check {
     Pairs,
     Reach,
     PartsOfTheModel,
-    NumberOfModes,
     ComplexShapes,
     Inputs,
     Deviations,
     Sight,
     Fit,
     Intervals,
-    HeldOut,
 }
 
 /// The answer to a question: there is something to say, there is nothing, or it cannot be told.
@@ -73,10 +69,9 @@ pub struct Answered {
 }
 
 /// Names of all questions, those of a result last.
-const NAMES: [&str; 19] = [
+const NAMES: [&str; 16] = [
     "free motions",
     "modes measured twice",
-    "order of frequencies",
     "factor of all frequencies",
     "readings of sensors",
     "settings",
@@ -85,14 +80,12 @@ const NAMES: [&str; 19] = [
     "pairs",
     "frequencies in reach",
     "parts of the model",
-    "number of test modes",
     "complex shapes",
     "use of the inputs",
     "deviations of the test",
     "what the test sees",
     "the fit",
     "intervals",
-    "modes held out",
 ];
 
 impl Check {
@@ -120,21 +113,16 @@ pub struct Concern {
 /// About nothing in particular.
 pub(super) const NONE: [&str; 0] = [];
 
-/// Most characters of an identifier, so that a table of 80 columns has room for its sentence.
-const LONGEST: usize = 40;
 /// Most names that a sentence lists.
 const MOST_LISTED: usize = 8;
 
 /// Names in a sentence, at most eight of them.
 pub(crate) fn some(names: &[impl ToString]) -> String {
-    let listed = match names.len() {
-        all if all > MOST_LISTED + 1 => MOST_LISTED,
-        all => all,
-    };
-    let words: Vec<String> = names[..listed].iter().map(ToString::to_string).collect();
-    match names.len() - listed {
-        0 => words.join(", "),
-        more => format!("{} and {more} more", words.join(", ")),
+    let words = names.iter().take(MOST_LISTED).map(ToString::to_string);
+    let words = words.collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(MOST_LISTED) {
+        0 => words,
+        more => format!("{words} and {more} more"),
     }
 }
 
@@ -171,7 +159,7 @@ impl Concern {
         Self {
             grade,
             check,
-            identifier: shortened(identifier.replace(char::is_whitespace, "-")),
+            identifier: identifier.replace(char::is_whitespace, "-"),
             about,
             words: words.into(),
         }
@@ -213,16 +201,6 @@ impl Concern {
     pub fn stands(&self) -> bool {
         self.grade == Grade::Doubt
     }
-}
-
-/// An identifier of at most forty characters; a longer one ends in four hexadecimal digits of its SHA-256 digest.
-fn shortened(whole: String) -> String {
-    if whole.chars().count() <= LONGEST {
-        return whole;
-    }
-    let digest = Sha256::digest(&whole);
-    let start: String = whole.chars().take(LONGEST - 5).collect();
-    format!("{start}-{:02x}{:02x}", digest[0], digest[1])
 }
 
 /// Everything that may lower the trust in a job's result, what matters most first.
@@ -294,20 +272,14 @@ impl Trust {
     /// # Errors
     /// [`FileError::Refused`] for an identifier that names no doubt, with those that there are.
     pub fn accepting(mut self, accepted: &[String]) -> Result<Self, FileError> {
-        let doubts: Vec<&str> = self
-            .concerns
-            .iter()
-            .filter(|own| own.grade == Grade::Doubt)
-            .map(|own| &own.identifier[..])
-            .collect();
+        let doubts = self.concerns.iter().filter(|own| own.stands());
+        let doubts: Vec<&str> = doubts.map(|own| &own.identifier[..]).collect();
         if let Some(unknown) = accepted.iter().find(|name| !doubts.contains(&&name[..])) {
-            return Err(FileError::refused(
-                format!("--accept {unknown}"),
-                match &doubts[..] {
-                    [] => "nothing is doubtful".to_owned(),
-                    _ => format!("the doubts are {}", doubts.join(", ")),
-                },
-            ));
+            let reason = match &doubts[..] {
+                [] => "nothing is doubtful".to_owned(),
+                _ => format!("the doubts are {}", doubts.join(", ")),
+            };
+            return Err(FileError::refused(format!("--accept {unknown}"), reason));
         }
         for own in &mut self.concerns {
             if own.stands() && accepted.contains(&own.identifier) {

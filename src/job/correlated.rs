@@ -1,12 +1,11 @@
 //! The factors of a job and how they were found: its third value.
 
-use super::{Method, PreparedJob};
+use super::{Method, PreparedJob, pairs::FLOOR};
 use crate::{
     files::error::FileError,
     method::{
         error::Error,
         outer_loop::{Correlation, Pass, correlate},
-        step::Bounds,
     },
     sparse::{Deflections, ModeWeight, Work},
     weighted::{
@@ -50,8 +49,6 @@ pub struct CorrelatedJob {
     pub first: Comparison,
     /// The model at the best factors.
     pub last: Comparison,
-    /// Number of exact analyses made, the first and the last among them.
-    pub analyses: usize,
     /// Work that they took, with that of the look before.
     pub work: Work,
     /// True if the run was stopped by request.
@@ -68,20 +65,27 @@ pub struct Caller<'a> {
     pub go_on: &'a dyn Fn() -> bool,
 }
 
-/// Factors, how they were found, the number of analyses, and whether a look about them found nothing lower.
-type Found = (Vec<f64>, History, usize, bool);
+/// Factors, how they were found, and whether a look about them found nothing lower.
+type Found = (Vec<f64>, History, bool);
 
 impl PreparedJob {
     /// The factors of the job.
     ///
-    /// Test modes that were left out are compared, from the end on, if modes of the model there are like them, and each alone where all
+    /// Test modes that were left out are compared, from the end on (of weighted steps: the paper's loops begin anew), if modes of the model there are like them, and each alone where all
     /// together lead to a place that explains the others worse ([`CorrelatedJob::explains`]). A mode that does so alone stays left out
     /// until another one joins, which leads to another end.
     ///
     /// # Errors
     /// [`FileError::Refused`] for a test in which no mode has a partner; the errors of the analyses and of the loops.
     pub(super) fn correlate(&self, caller: &mut Caller) -> Result<CorrelatedJob, FileError> {
-        self.check_paired()?;
+        self.loaded.job.ensure(!self.is_without_pairs(), || {
+            let best = self.unpaired.iter().map(|left| left.assurance);
+            let best = best.fold(0.0, f64::max);
+            format!(
+                "no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}; corfem check \
+                 looks for the mistake"
+            )
+        })?;
         let mut found = self.run(&self.loaded.ones(), caller)?;
         let mut most = usize::MAX;
         while !found.is_interrupted
@@ -89,65 +93,47 @@ impl PreparedJob {
         {
             (caller.progress)(&format!("test modes compared: {}", joined.modes.len()));
             let next = joined.run(&found.factors, caller)?;
-            let analyses = found.analyses + next.analyses;
             if next.is_interrupted || next.explains(&found)? {
-                let first = joined.first_comparison()?.with_slopes()?;
-                (found, most) = (CorrelatedJob { first, ..next }, usize::MAX);
+                (found, most) = (next, usize::MAX);
             } else if joined.modes.len() > found.prepared.modes.len() + 1 {
                 most = 1;
             } else {
-                found.prepared.refused.extend(&joined.joined);
+                let earlier = &mut found.prepared;
+                let worse = joined
+                    .modes
+                    .iter()
+                    .filter(|mode| !earlier.modes.contains(mode));
+                earlier.refused.extend(worse);
             }
-            found.analyses = analyses;
         }
         Ok(found)
     }
 
     /// One run, with the same test modes compared all the way.
     fn run(&self, start: &[f64], caller: &mut Caller) -> Result<CorrelatedJob, FileError> {
-        let first = match start == self.loaded.ones() {
-            true => self.first_comparison()?,
-            false => self.analyze(start)?,
-        };
-        let first = first.with_slopes()?;
-        let (factors, history, mut analyses, is_lowest) = match self.loaded.job.compare.method {
-            Method::Paper => self.by_loops((start, &first), caller)?,
-            Method::GaussNewton => self.by_weighted_steps((start, &first), caller)?,
+        let (factors, history, is_lowest) = match self.loaded.job.compare.method {
+            Method::Paper => self.by_loops(caller)?,
+            Method::GaussNewton => self.by_weighted_steps(start, caller)?,
         };
         let last = match &history {
             History::GaussNewton(Some(steps)) => steps.best.last.clone(),
-            _ => {
-                analyses += 1;
-                self.analyze(&factors)?.with_slopes()?
-            }
+            _ => self.analyze(&factors)?.with_slopes()?,
         };
         Ok(CorrelatedJob {
             prepared: self.clone(),
             history,
             factors,
-            first,
+            first: self.analyze(&self.loaded.ones())?.with_slopes()?,
             last,
-            analyses,
             work: self.loaded.source.whole.work(),
             is_interrupted: !(caller.go_on)(),
             is_lowest,
         })
     }
 
-    /// The paper's loops, which count factors from one: the start is their first model.
-    fn by_loops(
-        &self,
-        (start, first): (&[f64], &Comparison),
-        caller: &mut Caller,
-    ) -> Result<Found, FileError> {
+    /// The paper's loops, from the first model.
+    fn by_loops(&self, caller: &mut Caller) -> Result<Found, FileError> {
         let job = &self.loaded.job;
-        let total = |factors: &[f64]| -> Vec<f64> {
-            factors
-                .iter()
-                .zip(start)
-                .map(|(factor, start)| factor * start)
-                .collect()
-        };
         let report_pass = |number: usize, pass: &Pass| {
             let errors = &pass.check.errors;
             (caller.progress)(&format!(
@@ -157,61 +143,32 @@ impl PreparedJob {
             ));
             (caller.go_on)()
         };
-        let mut analyses = 1;
-        let analyze = |factors: &[f64]| {
-            let factors = total(factors);
-            if factors == start {
-                return Ok(first.clone().into_model());
-            }
-            analyses += 1;
-            Ok::<_, Error>(self.analyze(&factors)?.into_model())
-        };
-        let mut ranges = self.loaded.source.whole.ranges();
-        for (range, start) in ranges.iter_mut().zip(start) {
-            if let Some(Bounds { lower, upper }) = range {
-                (*lower, *upper) = (*lower / start, *upper / start);
-            }
-        }
-        let run = correlate(
-            analyze,
-            &ranges,
-            &job.correlation.for_modes(self.modes.len()),
-            report_pass,
-        );
-        let mut run = run.map_err(|error| match error {
+        let analyze = |factors: &[f64]| Ok::<_, Error>(self.analyze(factors)?.into_model());
+        let ranges = self.loaded.source.whole.ranges();
+        let settings = job.correlation.for_modes(self.modes.len());
+        let run = correlate(analyze, &ranges, &settings, report_pass);
+        let run = run.map_err(|error| match error {
             error if error.is_of_close_modes() => job.refused(format!(
                 "the paper's loops need modes that stay apart: {error}; compare.method = \"gauss_newton\" needs none"
             )),
             other => other.into(),
         })?;
-        for pass in &mut run.passes {
-            pass.factors = total(&pass.factors);
-        }
-        run.best_factors = total(&run.best_factors);
         let factors = run.best_factors.clone();
-        Ok((factors, History::Paper(Box::new(run)), analyses, false))
+        Ok((factors, History::Paper(Box::new(run)), false))
     }
 
     /// Weighted Gauss–Newton steps from the start, and from others where there are several.
-    fn by_weighted_steps(
-        &self,
-        (start, first): (&[f64], &Comparison),
-        caller: &mut Caller,
-    ) -> Result<Found, FileError> {
+    fn by_weighted_steps(&self, start: &[f64], caller: &mut Caller) -> Result<Found, FileError> {
         let (compare, ranges) = (&self.loaded.job.compare, self.loaded.source.whole.ranges());
         let (weights, settings) = (self.weights(), self.weighted_settings());
         let go_on = caller.go_on;
-        let (mut analyses, mut near, mut is_over) = (1, None, false);
+        let (mut near, mut is_over) = (None, false);
         let mut best = (f64::INFINITY, start.to_vec());
         let mut analyze = |factors: &[f64]| {
-            let model = match factors == start {
-                _ if is_over => return Err(FileError::Interrupted),
-                true => first.clone(),
-                false => {
-                    analyses += 1;
-                    self.analyze_near(factors, near.as_ref())?
-                }
-            };
+            if is_over {
+                return Err(FileError::Interrupted);
+            }
+            let model = self.analyze_near(factors, near.as_ref())?;
             // The next search begins from these shapes.
             near = model
                 .model
@@ -258,11 +215,9 @@ impl PreparedJob {
             Ok(steps) if !is_over => {
                 let factors = steps.best.factors.clone();
                 let history = History::GaussNewton(Some(Box::new(steps)));
-                Ok((factors, history, analyses, is_lowest))
+                Ok((factors, history, is_lowest))
             }
-            Ok(_) | Err(FileError::Interrupted) => {
-                Ok((best.1, History::GaussNewton(None), analyses, false))
-            }
+            Ok(_) | Err(FileError::Interrupted) => Ok((best.1, History::GaussNewton(None), false)),
             Err(error) => Err(error),
         }
     }
@@ -287,16 +242,14 @@ impl PreparedJob {
             // A minimum that noise does not explain is not the truth's.
             let is_doubted = !Misfit::of(&run.last, &weights, &source.priors, &[])?.is_by_noise();
             let size = 2 * self.modes.len() + ranges.len().min(MOST_DEFLECTIONS);
-            let basis = match source.whole.dof_count() <= MOST_ROWS {
-                true => None,
-                false => Some(
-                    run.last
-                        .with_model(run.last.model.in_basis(Deflections::All(size))?),
-                ),
-            };
-            let follow = &mut |at: &[f64]| match &basis {
-                None => self.analyze(at),
-                Some(basis) => basis.about(&run.factors)(at),
+            let model = &run.last.model;
+            let basis = run.last.with_model(model.in_basis(Deflections::All(size))?);
+            let follow = &mut |at: &[f64]| {
+                if source.whole.dof_count() <= MOST_ROWS {
+                    self.analyze(at)
+                } else {
+                    basis.about(&run.factors)(at)
+                }
             };
             let Some(place) =
                 lower_place(&run, follow, &ranges, &weights, &settings, seed, is_doubted)?

@@ -2,12 +2,16 @@
 
 use super::{
     LoadedJob,
-    concern::{Check, Concern, NONE, listed, numbers, some},
+    concern::{Check, Concern, Grade, NONE, listed, numbers, some},
     sensors::PlacedSensor,
 };
 use crate::{
-    files::deck::{Reason, Unread},
+    files::{
+        deck::{Reason, Unread},
+        error::FileError,
+    },
     method::step::Bounds,
+    sparse::{WholeShare, brackets::Excess},
     weighted::noise::Noise,
 };
 use nalgebra::Vector3;
@@ -36,21 +40,12 @@ impl LoadedJob {
     /// Remarks on complex test modes and on what the readers of the test left aside or did not convert.
     pub(super) fn data_concerns(&self) -> Vec<Concern> {
         let (data, check) = (&self.data, Check::Inputs);
-        let complex = data
-            .phase_collinearity
-            .iter()
-            .enumerate()
-            .filter(|(_, phase)| **phase < COLLINEAR)
-            .map(|(mode, phase)| {
-                let mode = mode + 1;
-                Concern::remark(
-                    Check::ComplexShapes,
-                    "complex-",
-                    &[mode],
-                    format!("Test mode {mode} is complex: its phase collinearity is {phase:.2}."),
-                )
-            });
-        let mut all: Vec<Concern> = complex.collect();
+        let phases = data.phase_collinearity.iter().enumerate();
+        let complex = phases.filter(|own| *own.1 < COLLINEAR);
+        let complex = complex.map(|(mode, phase)| format!("{} ({phase:.2})", mode + 1));
+        let complex: Vec<String> = complex.collect();
+        let words = "Complex test modes, with their phase collinearity";
+        let mut all = Vec::from_iter(listed(Check::ComplexShapes, "complex", words, &complex));
         let rigid = numbers(data.rigid.iter().copied());
         all.extend(listed(
             check,
@@ -70,16 +65,10 @@ impl LoadedJob {
             "Datasets of the Universal File that are not read",
             &data.skipped,
         ));
-        let cards = self
-            .source
-            .deck
-            .iter()
-            .flat_map(|(_, deck)| &deck.unread)
-            .filter(|card| card.reason != Reason::WithoutPart);
-        let mut unused: Vec<String> = cards.map(Unread::place).collect();
-        let sensors = self.data.sensors.len() - self.placed.len();
-        unused.extend((sensors > 0).then(|| format!("{sensors} of the test's sensors")));
-        all.extend(listed(check, "not-used", "Not used of the inputs", &unused));
+        let cards = self.source.deck.iter().flat_map(|(_, deck)| &deck.unread);
+        let cards = cards.filter(|card| card.reason != Reason::WithoutPart);
+        let cards: Vec<String> = cards.map(Unread::place).collect();
+        all.extend(listed(check, "not-used", "Not used of the deck", &cards));
         // The job chooses by number, and the file has other numbers, or another order.
         let given = &data.numbers;
         let is_chosen = self.job.test.modes.is_some() && !given.is_empty();
@@ -122,27 +111,28 @@ impl LoadedJob {
                 .map(|mode| of(&self.deviations(mode - 1)))
                 .fold(0.0, f64::max)
         };
+        let tolerance = LARGEST_TOLERANCE;
         let fractions = [
-            ("frequency_deviation", largest(|noise| noise.frequency)),
-            ("shape_deviation", largest(|noise| noise.shape)),
-            ("inner.tolerance", own.inner.tolerance),
-            ("later_inner_tolerance", own.later_inner_tolerance),
-            ("error_sum_tolerance", own.error_sum_tolerance),
-            ("frequency_tolerance", own.frequency_tolerance),
-            ("shape_tolerance", own.shape_tolerance),
+            (
+                "frequency_deviation",
+                largest(|noise| noise.frequency),
+                tolerance,
+            ),
+            ("shape_deviation", largest(|noise| noise.shape), PERCENT),
+            ("inner.tolerance", own.inner.tolerance, tolerance),
+            (
+                "later_inner_tolerance",
+                own.later_inner_tolerance,
+                tolerance,
+            ),
+            ("error_sum_tolerance", own.error_sum_tolerance, tolerance),
+            ("frequency_tolerance", own.frequency_tolerance, tolerance),
+            ("shape_tolerance", own.shape_tolerance, tolerance),
         ];
-        let percent = fractions
-            .into_iter()
-            .filter(|(_, value)| *value > LARGEST_TOLERANCE).map(|(setting, value)| {
-            let percent = 100.0 * value;
-            if setting == "shape_deviation" && value < PERCENT {
-                let words = format!(
-                    "Setting {setting} is {value}: a standard deviation of {percent} % of a shape's largest component?"
-                );
-                return Concern::remark(Check::Settings, "large-", &[setting], words);
-            }
+        let percent = fractions.into_iter().filter(|own| own.1 > own.2).map(|(setting, value, _)| {
             let words = format!(
-                "Setting {setting} is {value}, that is {percent} %: a percentage where a fraction is meant?"
+                "Setting {setting} is {value}, that is {} %: a percentage where a fraction is meant?",
+                100.0 * value
             );
             Concern::doubt(Check::Settings, "percent-", &[setting], words)
         });
@@ -154,6 +144,65 @@ impl LoadedJob {
             Some(Concern::doubt(Check::Settings, "excludes-start-", &[name], words))
         });
         percent.chain(excluding).collect()
+    }
+
+    /// Doubts about parameters' matrices that have negative energy or exceed the first stiffness or mass; remarks where
+    /// the signs of pivots do not tell.
+    ///
+    /// # Errors
+    /// Errors of the first matrices and of a factorization's plan.
+    pub(super) fn part_concerns(&self) -> Result<Vec<Concern>, FileError> {
+        let (whole, check) = (&self.source.whole, Check::PartsOfTheModel);
+        let (stiffness, mass) = whole.at(&self.ones())?;
+        let mut all = Vec::new();
+        for (what, first) in [("stiffness", &stiffness), ("mass", &mass)] {
+            let mut parts = Vec::new();
+            for own in whole.parameters() {
+                match &own.share {
+                    // Elements of a deck are parts of its stiffness.
+                    WholeShare::Stiffness(_) if self.source.deck.is_some() => (),
+                    WholeShare::Stiffness(part) if what == "stiffness" => {
+                        parts.push((&own.name, part))
+                    }
+                    WholeShare::Mass(part) if what == "mass" => parts.push((&own.name, part)),
+                    _ => (),
+                }
+            }
+            if parts.is_empty() {
+                continue;
+            }
+            let excess = Excess::beside(what, first)?;
+            for (name, part) in parts {
+                let found = [
+                    (
+                        "negative-",
+                        excess.of(0.0, &[(1.0, part)]),
+                        "has negative energy, more than its digits explain",
+                    ),
+                    (
+                        "not-part-",
+                        excess.of(1.0, &[(-1.0, part)]),
+                        "is not part of the first model's, which without it has negative energy",
+                    ),
+                ];
+                for (kind, found, what) in found {
+                    all.push(match found {
+                        Ok(None) => continue,
+                        Ok(Some(_)) => {
+                            let words = format!("The matrix of parameter \"{name}\" {what}.");
+                            Concern::doubt(check, kind, &[name], words)
+                        }
+                        Err(error) => {
+                            let words = format!(
+                                "Whether parameter \"{name}\" is part of the first model was not checked: {error}."
+                            );
+                            Concern::new(Grade::NotChecked, check, "part-not-checked-", &[name], words)
+                        }
+                    });
+                }
+            }
+        }
+        Ok(all)
     }
 
     /// Doubts about places of sensors that span much more than the model does, or that are twice as near to another grid as to the one
@@ -171,7 +220,7 @@ impl LoadedJob {
                 "the places of sensors or of their grids are not given",
             )];
         }
-        let (mut all, places) = (Vec::new(), self.source.geometry.places.values());
+        let (mut all, places) = (Vec::new(), self.source.places.values());
         let is_elsewhere = |own: &&&PlacedSensor| {
             let sensor = &self.data.sensors[own.row];
             let (Some(at), Some(distance)) = (sensor.place, own.distance) else {
@@ -195,16 +244,22 @@ impl LoadedJob {
             );
             all.push(Concern::doubt(check, "other-grid", &elsewhere, words));
         }
-        let [test, model] = [
-            span(
-                known
+        // The diagonal of the box about some places.
+        let span = |places: &[Vector3<f64>]| {
+            let end = |of: fn(&Vector3<f64>, &Vector3<f64>) -> Vector3<f64>| {
+                places
                     .iter()
-                    .filter_map(|own| self.data.sensors[own.row].place)
-                    .collect(),
-            ),
-            span(places.copied().collect()),
-        ];
-        let ratio = test / model;
+                    .copied()
+                    .reduce(|a, b| of(&a, &b))
+                    .unwrap_or_default()
+            };
+            (end(Vector3::sup) - end(Vector3::inf)).norm()
+        };
+        let test = known
+            .iter()
+            .filter_map(|own| self.data.sensors[own.row].place);
+        let [test, model]: [Vec<_>; 2] = [test.collect(), places.copied().collect()];
+        let ratio = span(&test) / span(&model);
         if ratio > LARGEST_SPAN {
             let words = format!(
                 "The sensors' places span {ratio:.1} times what the model's do: another unit of length?"
@@ -213,14 +268,4 @@ impl LoadedJob {
         }
         all
     }
-}
-
-/// The diagonal of the box about some places.
-fn span(places: Vec<Vector3<f64>>) -> f64 {
-    let low = places.iter().copied().reduce(|low, place| low.inf(&place));
-    let high = places
-        .iter()
-        .copied()
-        .reduce(|high, place| high.sup(&place));
-    low.zip(high).map_or(0.0, |(low, high)| (high - low).norm())
 }

@@ -2,14 +2,14 @@
 
 use super::{
     PreparedJob,
-    concern::{Check, Concern, Grade, NONE, Trust, listed, numbers, some},
+    concern::{Check, Concern, Grade, NONE, Trust, some},
     correlated::{Caller, CorrelatedJob, History},
-    verdict::{End, Judged, Verdict, sum_of_nine_modes},
+    verdict::{End, Verdict, sum_of_nine_modes},
 };
 use crate::{
     files::error::FileError,
-    method::{error_sum::mode_errors, step::Bounds},
-    sparse::Deflections,
+    method::step::Bounds,
+    sparse::{Deflections, ModeWeight},
     weighted::{
         comparison::ModeErrors,
         gauss_newton::WeightedStop,
@@ -54,22 +54,22 @@ pub fn run(
     mut progress: impl FnMut(&str),
     go_on: impl Fn() -> bool,
 ) -> Result<JobResult, FileError> {
-    prepared.loaded.require_parameters()?;
+    prepared.loaded.job.ensure(
+        !prepared.loaded.source.priors.is_empty(),
+        || "a job needs at least one [[parameter]]",
+    )?;
     let mut caller = Caller {
         progress: &mut progress,
         go_on: &go_on,
     };
-    prepared
-        .correlate(&mut caller)?
-        .judge(trust)?
-        .with_intervals()
+    prepared.correlate(&mut caller)?.judge(trust)
 }
 
 impl CorrelatedJob {
-    /// Judges what was found, without intervals: how the residuals are to the noise, what the test sees, and what to know before trusting it.
+    /// Judges what was found: how the residuals are to the noise, what the test sees, and what to know before trusting it.
     ///
     /// # Errors
-    /// The errors of [`Misfit::of`] and [`identifiability`].
+    /// The errors of [`Misfit::of`], [`identifiability`] and [`intervals`].
     pub(super) fn judge(self, trust: &Trust) -> Result<JobResult, FileError> {
         let mut verdict = self.verdict()?;
         let (weights, priors) = (self.prepared.weights(), &self.prepared.loaded.source.priors);
@@ -95,147 +95,126 @@ impl CorrelatedJob {
             misfit.widening(),
         )?;
         let seen_first = sees(&self.first, 1.0)?;
-        let after = self.concerns(&verdict, &seen, &misfit)?;
         verdict.is_within &= predicted.iter().all(|own| own.missed.is_none());
+        let intervals = if verdict.end.is_stationary() {
+            self.intervals(&weights, misfit.widening())?
+        } else {
+            vec![Err(Withheld::NoOptimum); self.factors.len()]
+        };
+        let mut after = self.concerns(&seen, &misfit)?;
+        let is_met = |own: &&Withheld| intervals.contains(&Err(**own));
+        let reasons: Vec<&str> = Withheld::ALL
+            .iter()
+            .filter(is_met)
+            .map(|own| own.words())
+            .collect();
+        if !reasons.is_empty() {
+            after.push(Concern::not_checked(Check::Intervals, &reasons.join("; ")));
+        }
+        let work = self.prepared.loaded.source.whole.work();
         Ok(JobResult {
-            intervals: vec![Err(Withheld::NoOptimum); self.factors.len()],
-            found: self,
+            found: Self { work, ..self },
             trust: trust.after(after),
             verdict,
             seen_first,
             seen,
             misfit,
             predicted,
+            intervals,
         })
+    }
+
+    /// 95 % intervals about the optimum of weighted steps, in a basis about it with corrected slopes.
+    fn intervals(
+        &self,
+        weights: &[ModeWeight],
+        widening: f64,
+    ) -> Result<Vec<Result<Bounds, Withheld>>, FileError> {
+        let (prepared, model) = (&self.prepared, &self.last);
+        let size = Deflections::All(6 * prepared.modes.len() + 30);
+        let basis = model.model.in_basis(size)?;
+        let basis = model.in_basis(basis, &jacobian(model, weights)?, weights)?;
+        Ok(intervals(
+            &basis.about(&self.factors),
+            &self.factors,
+            &prepared.loaded.source.whole.ranges(),
+            weights,
+            &prepared.weighted_settings(),
+            widening,
+        )?)
     }
 
     /// The verdict by the reason why it ended and by the tolerances.
     fn verdict(&self) -> Result<Verdict, FileError> {
-        let judged = Judged {
-            // What a test with deviations does not see its deviations say.
-            seen: &[],
-            ranges: &self.prepared.loaded.source.whole.ranges(),
-        };
-        let found = match &self.history {
-            History::Paper(run) => {
-                let best = run.best_check();
-                let is_stopped = self.is_interrupted;
-                return Ok(judged.of_loops(
-                    run,
-                    &mode_errors(&best.modes, &best.pairing, &self.prepared.test)?,
-                    sum_of_nine_modes,
-                    is_stopped,
-                ));
+        let end = match &self.history {
+            History::Paper(run) => (End::of_loops(run, self.is_interrupted), run.converged),
+            History::GaussNewton(None) => (End::Request, false),
+            History::GaussNewton(Some(found)) => {
+                let end = match found.best.stop {
+                    WeightedStop::Gradient if self.is_lowest => End::Lowest,
+                    WeightedStop::Gradient => End::Stationary,
+                    _ if found.best.iterations.is_empty() => End::Nothing,
+                    WeightedStop::Trials => End::Cap,
+                    WeightedStop::Short => End::Short,
+                };
+                (end, false)
             }
-            History::GaussNewton(found) => found.as_ref().map(|found| &found.best),
         };
-        let end = match found.map(|run| run.stop) {
-            None => End::Request,
-            Some(WeightedStop::Gradient) if self.is_lowest => End::Lowest,
-            Some(WeightedStop::Gradient) => End::Stationary,
-            Some(_) if found.is_some_and(|run| run.iterations.is_empty()) => End::Nothing,
-            Some(WeightedStop::Trials) => End::Cap,
-            Some(WeightedStop::Short) => End::Short,
-        };
-        let errors = self.last.mode_errors()?;
-        let sum = sum_of_nine_modes(&self.last.result()?.errors);
-        Ok(judged.verdict(end, (sum, &errors), &self.factors, false))
+        let (errors, sum) = (
+            self.last.mode_errors()?,
+            sum_of_nine_modes(&self.last.result()?.errors),
+        );
+        let ranges = self.prepared.loaded.source.whole.ranges();
+        Ok(Verdict::new(end, (sum, &errors), &self.factors, &ranges))
     }
 
     /// Everything there is to know after the steps.
-    fn concerns(
-        &self,
-        verdict: &Verdict,
-        seen: &Identifiability,
-        misfit: &Misfit,
-    ) -> Result<Vec<Concern>, FileError> {
-        let prepared = &self.prepared;
-        let mut all: Vec<Concern> = Vec::new();
-        all.extend(
-            misfit
-                .untested()
-                .map(|reason| Concern::not_checked(Check::Fit, &reason)),
-        );
-        all.extend(
-            (!misfit.is_by_noise())
-                .then(|| Concern::remark(Check::Fit, "misfit", &NONE, misfit.in_numbers())),
-        );
-        all.extend(misfit.is_below_noise().then(|| {
+    fn concerns(&self, seen: &Identifiability, misfit: &Misfit) -> Result<Vec<Concern>, FileError> {
+        let (prepared, mut all) = (&self.prepared, Vec::new());
+        let untested = misfit.untested();
+        all.extend(untested.map(|reason| Concern::not_checked(Check::Fit, &reason)));
+        if !misfit.is_by_noise() {
+            all.push(Concern::remark(
+                Check::Fit,
+                "misfit",
+                &NONE,
+                misfit.in_numbers(),
+            ));
+        }
+        if misfit.is_below_noise() {
             let words = format!(
                 "Noise alone would leave a chi-squared of {:.1} or more in 999 of 1000 tests, for {:.1} here: the test was computed, or \
                  its deviations are too large, and so are the intervals.",
                 misfit.least_by_noise, misfit.chi_squared
             );
-            Concern::remark(Check::Deviations, "below-noise", &NONE, words)
-        }));
-        all.extend(self.sight_concerns(verdict, seen));
-        all.extend(listed(
-            Check::Pairs,
-            "joined",
-            "Test modes left out at first and compared since",
-            &numbers(prepared.joined.iter().copied()),
-        ));
-        all.extend(self.held_out()?.iter().map(|held| {
-            let [first, last] = held.frequency;
-            let shape = held.shape.map_or(String::new(), |[first, last]| {
-                format!(", its shape by {first:.2} % and {last:.2} % RMS")
-            });
-            let words = format!("Test mode {} was not fitted: its frequency was off by {first:.2} % and is by {last:.2} %{shape}.", held.mode);
-            Concern::remark(Check::HeldOut, "held-out-", &[held.mode], words)
-        }));
-        all.extend(prepared.unanswered(&self.last, Some(&seen.covariance)));
-        all.extend(
-            prepared
-                .unlike(&self.last)?
-                .iter()
-                .map(|own| own.concern(Grade::LeftOut)),
-        );
+            all.push(Concern::remark(
+                Check::Deviations,
+                "below-noise",
+                &NONE,
+                words,
+            ));
+        }
+        let names: Vec<&str> = prepared.loaded.parameter_names().collect();
+        for group in seen.untold_groups() {
+            let group: Vec<&str> = group.iter().map(|&e| names[e]).collect();
+            let words = format!(
+                "The test cannot tell {} apart; only combinations of them are known.",
+                some(&group)
+            );
+            all.push(Concern::remark(Check::Sight, "not-apart-", &group, words));
+        }
+        all.extend(prepared.unanswered(&self.last));
+        let left = prepared.unlike(&self.last)?;
+        all.extend(left.iter().map(|own| own.concern(Grade::LeftOut)));
         Ok(all)
-    }
-
-    /// Remarks on what the test does not see, or cannot tell apart, and on bounds that hold factors.
-    fn sight_concerns(&self, verdict: &Verdict, seen: &Identifiability) -> Vec<Concern> {
-        let names: Vec<&str> = self.prepared.loaded.parameter_names().collect();
-        let of = |places: &[usize]| places.iter().map(|&e| names[e]).collect::<Vec<&str>>();
-        let groups = seen.untold_groups();
-        let (mut alone, grouped) = (verdict.unseen.clone(), groups.concat());
-        alone.retain(|e| !grouped.contains(e));
-        let mut all: Vec<Concern> = Vec::new();
-        all.extend(groups.iter().map(|group| {
-            Concern::remark(
-                Check::Sight,
-                "not-apart-",
-                &of(group),
-                format!(
-                    "The test cannot tell {} apart; only combinations of them are known.",
-                    some(&of(group))
-                ),
-            )
-        }));
-        all.extend(listed(
-            Check::Sight,
-            "mostly-prior",
-            "Known more from the prior than from the test",
-            &of(&alone),
-        ));
-        all.extend(listed(
-            Check::Sight,
-            "at-bound",
-            "At a bound",
-            &of(&verdict.at_bound),
-        ));
-        all
     }
 
     /// Errors of the test modes that are held out, at first and at the end.
     pub fn held_out(&self) -> Result<Vec<HeldOut>, FileError> {
         let (first, last) = (self.first.mode_errors()?, self.last.mode_errors()?);
         let held = &self.prepared.loaded.job.test.hold_out;
-        let both = self
-            .prepared
-            .compared()
-            .zip(first.iter().zip(&last))
-            .filter(|(mode, _)| held.contains(&(mode + 1)));
+        let both = self.prepared.compared().zip(first.iter().zip(&last));
+        let of_held = both.filter(|(mode, _)| held.contains(&(mode + 1)));
         let of_mode = |(mode, (first, last)): (usize, (&ModeErrors, &ModeErrors))| HeldOut {
             mode: mode + 1,
             frequency: [first, last].map(|own| 100.0 * own.frequency),
@@ -244,7 +223,7 @@ impl CorrelatedJob {
                 .zip(last.shape)
                 .map(|(first, last)| [100.0 * first, 100.0 * last]),
         };
-        Ok(both.map(of_mode).collect())
+        Ok(of_held.map(of_mode).collect())
     }
 }
 
@@ -257,51 +236,4 @@ pub struct HeldOut {
     pub frequency: [f64; 2],
     /// Errors of its shape, if it has one.
     pub shape: Option<[f64; 2]>,
-}
-
-impl JobResult {
-    /// The same with 95 % intervals where weighted steps ended at their optimum, in a basis about it with corrected slopes, and a word on the
-    /// parameters that have none.
-    ///
-    /// # Errors
-    /// The errors of the basis and of [`intervals`].
-    fn with_intervals(mut self) -> Result<Self, FileError> {
-        let (found, loaded) = (&self.found, &self.found.prepared.loaded);
-        if self.verdict.end.is_stationary() {
-            let (prepared, model) = (&found.prepared, &found.last);
-            let (weights, settings) = (prepared.weights(), prepared.weighted_settings());
-            let exact = jacobian(model, &weights)?;
-            let size = Deflections::All(6 * prepared.modes.len() + 30);
-            let basis = model.in_basis(model.model.in_basis(size)?, &exact, &weights)?;
-            self.intervals = intervals(
-                &basis.about(&found.factors),
-                &found.factors,
-                &loaded.source.whole.ranges(),
-                &weights,
-                &settings,
-                self.misfit.widening(),
-            )?;
-        }
-        let reason = |withheld: &Withheld| {
-            let names = loaded.parameter_names().zip(&self.intervals);
-            let names = names.filter(|own| *own.1 == Err(*withheld));
-            let names: Vec<&str> = names.map(|own| own.0).collect();
-            match (names.is_empty(), withheld) {
-                (true, _) => None,
-                // Remarks name the others.
-                (_, Withheld::NoOptimum | Withheld::AtBound | Withheld::MostlyPrior) => {
-                    Some(withheld.words().to_owned())
-                }
-                _ => Some(format!("{}: {}", withheld.words(), names.join(", "))),
-            }
-        };
-        let reasons: Vec<String> = Withheld::ALL.iter().filter_map(reason).collect();
-        if !reasons.is_empty() {
-            let skipped = Concern::not_checked(Check::Intervals, &reasons.join("; "));
-            self.trust = Trust::new([self.trust.all(), &[skipped]].concat());
-        }
-        let work = loaded.source.whole.work();
-        self.found.work = work;
-        Ok(self)
-    }
 }

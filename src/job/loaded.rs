@@ -10,7 +10,7 @@ use super::{
 use crate::{
     files::{
         deck::rewrite,
-        error::{FileError, ensure},
+        error::FileError,
         matrices::{write_dmig, write_matrix_market},
         test_data::TestData,
     },
@@ -18,7 +18,7 @@ use crate::{
         error::{Error, at_least_one},
         modes::Modes,
     },
-    sparse::{SparseMatrix, WholeParameter, WholeShare, no_modes},
+    sparse::{SparseMatrix, WholeShare, no_modes},
     weighted::{noise::Noise, residuals::DEVIATIONS},
 };
 use std::{collections::BTreeMap, path::Path};
@@ -41,7 +41,7 @@ pub struct LoadedJob {
     /// Numbers of the test modes that the job selects.
     pub(super) numbers: Vec<usize>,
     /// Selected test modes, from zero, of which a frequency alone is known, ascending, with their partners in the first model.
-    pub(super) alone: Vec<(usize, usize)>,
+    pub alone: Vec<(usize, usize)>,
 }
 
 impl LoadedJob {
@@ -66,7 +66,10 @@ impl LoadedJob {
         let numbers = selected(&job, &data)?;
         Ok(Self {
             alone: lone_partners(&job, &data, &numbers)?,
-            title: job.title.clone().unwrap_or_else(|| job.stem()),
+            title: job.title.clone().unwrap_or_else(|| {
+                let name = path.file_stem().unwrap_or_default();
+                name.to_string_lossy().into_owned()
+            }),
             job,
             source,
             data,
@@ -169,8 +172,8 @@ impl LoadedJob {
             let both = [("stiffness", stiffness), ("mass", mass)].into_iter();
             let written = both.zip(dmig).map(|((file, matrix), name)| {
                 let (end, text) = match name {
-                    Some(name) => ("pch", write_dmig(name, labels, &matrix)?),
-                    None => ("mtx", write_matrix_market(&matrix)),
+                    Some(name) if !labels.is_empty() => ("pch", write_dmig(name, labels, &matrix)?),
+                    _ => ("mtx", write_matrix_market(&matrix)),
                 };
                 Ok((format!("{file}.{end}"), text.into_bytes()))
             });
@@ -179,26 +182,21 @@ impl LoadedJob {
         let (mut elements, mut masses) = (BTreeMap::new(), BTreeMap::new());
         let parameters = self.source.whole.parameters().iter();
         let parameters = parameters.zip(&self.source.members).zip(factors);
-        for ((WholeParameter { share, .. }, members), factor) in parameters {
+        for ((own, members), factor) in parameters {
             for label in &members.masses {
                 *masses.entry(*label).or_insert(1.0) *= factor;
             }
             for label in &members.elements {
                 let [size, density] = elements.entry(*label).or_insert([1.0; 2]);
-                match share {
-                    WholeShare::Stiffness(_) => {
-                        (*size, *density) = (*size * factor, *density / factor)
-                    }
-                    WholeShare::Mass(_) => *density *= factor,
+                if matches!(own.share, WholeShare::Stiffness(_)) {
+                    (*size, *density) = (*size * factor, *density / factor);
+                } else {
+                    *density *= factor;
                 }
             }
         }
-        let name = self
-            .job
-            .model
-            .deck
-            .as_ref()
-            .map_or_else(String::new, |path| path.display().to_string());
+        let name = self.job.model.deck.iter().map(|path| path.display());
+        let name: String = name.map(|name| name.to_string()).collect();
         let deck = rewrite(&name, bytes, &elements, &masses)?;
         Ok(vec![("corrected.bdf".to_owned(), deck)])
     }
@@ -212,13 +210,6 @@ impl LoadedJob {
             .map(|parameter| &parameter.name[..])
     }
 
-    /// Refuses a job without parameters, which can be looked at but not correlated.
-    pub(super) fn require_parameters(&self) -> Result<(), FileError> {
-        ensure(!self.source.whole.parameters().is_empty(), || {
-            self.job.refused("a job needs at least one [[parameter]]")
-        })
-    }
-
     /// The first factors.
     pub(crate) fn ones(&self) -> Vec<f64> {
         vec![1.0; self.source.whole.parameters().len()]
@@ -229,48 +220,43 @@ impl LoadedJob {
 fn selected(job: &Job, data: &TestData) -> Result<Vec<usize>, FileError> {
     let (test, compare, available) = (&job.test, &job.compare, data.frequencies_hz.len());
     let numbers = test.modes.clone().unwrap_or_else(|| data.vibrations());
-    let refused = |reason: String| job.refused(format!("test.{reason}"));
     for mode in &numbers {
-        ensure((1..=available).contains(mode), || {
-            refused(format!(
-                "modes: there is no mode {mode}; the test has 1 to {available}"
-            ))
+        job.ensure((1..=available).contains(mode), || {
+            format!("test.modes: there is no mode {mode}; the test has 1 to {available}")
         })?;
-        ensure(!data.rigid.contains(&(mode - 1)), || {
-            refused(format!(
-                "modes: mode {mode} has a frequency of 0 Hz; a rigid-body mode is not compared"
-            ))
+        job.ensure(!data.rigid.contains(&(mode - 1)), || {
+            format!(
+                "test.modes: mode {mode} has a frequency of 0 Hz; a rigid-body mode is not compared"
+            )
         })?;
     }
     at_least_one("test modes", numbers.len())?;
     job.once(numbers.iter(), "test.modes: mode")?;
     job.once(test.hold_out.iter(), "test.hold_out: mode")?;
     for mode in &test.hold_out {
-        ensure(numbers.contains(mode), || {
-            refused(format!(
-                "hold_out: mode {mode} is none of the test modes that are compared"
-            ))
+        job.ensure(numbers.contains(mode), || {
+            format!("test.hold_out: mode {mode} is none of the test modes that are compared")
         })?;
     }
     let named = numbers.len();
-    ensure(test.hold_out.len() != named, || {
-        refused("hold_out: a mode at least must be left to fit".into())
-    })?;
-    let lists = [
+    job.ensure(
+        test.hold_out.len() != named,
+        || "test.hold_out: a mode at least must be left to fit",
+    )?;
+    let count = |list: &Option<Vec<f64>>| list.as_ref().map_or(named, Vec::len);
+    for (what, count) in [
         (
             "compare.frequency_weights",
-            compare.frequency_weights.as_ref().map(Vec::len),
+            count(&compare.frequency_weights),
         ),
+        ("compare.shape_weights", count(&compare.shape_weights)),
         (
-            "compare.shape_weights",
-            compare.shape_weights.as_ref().map(Vec::len),
+            "test.partners",
+            test.partners.as_ref().map_or(named, Vec::len),
         ),
-        ("test.partners", test.partners.as_ref().map(Vec::len)),
-    ];
-    for (what, count) in lists {
-        let count = count.unwrap_or(named);
-        ensure(count == named, || {
-            job.refused(format!("{what}: {count} given for {named} test modes"))
+    ] {
+        job.ensure(count == named, || {
+            format!("{what}: {count} given for {named} test modes")
         })?;
     }
     Ok(numbers)
@@ -288,28 +274,28 @@ fn lone_partners(
     data: &TestData,
     numbers: &[usize],
 ) -> Result<Vec<(usize, usize)>, FileError> {
-    let named = job.test.partners.iter().flatten();
-    let pairs = || numbers.iter().zip(named.clone());
-    for (mode, &partner) in pairs() {
-        ensure(data.alone.contains(&(mode - 1)) == (partner > 0), || {
+    let partners = job.test.partners.iter().flatten().copied();
+    let named: Vec<(usize, usize)> = numbers.iter().map(|mode| mode - 1).zip(partners).collect();
+    for (mode, partner) in &named {
+        job.ensure(data.alone.contains(mode) == (*partner > 0), || {
             let what = match partner {
                 0 => "has a frequency alone; name its mode of the model, from 1",
                 _ => "is paired by its shape; 0 stands for it",
             };
-            job.refused(format!("test.partners: test mode {mode} {what}"))
+            format!("test.partners: test mode {} {what}", mode + 1)
         })?;
     }
-    let partners = named.clone().filter(|partner| **partner > 0);
+    let partners = named.iter().map(|own| own.1).filter(|partner| *partner > 0);
     job.once(partners, "test.partners: mode")?;
     let vibrations = data.vibrations().into_iter();
     let mut ascending: Vec<usize> = vibrations.map(|number| number - 1).collect();
     ascend(&mut ascending, data);
+    let alone = ascending.into_iter().enumerate();
+    let alone = alone.filter(|own| data.alone.contains(&own.1) && job.selects(own.1 + 1));
     let partner = |(place, mode): (usize, usize)| {
-        let own = pairs().find(|(number, _)| **number == mode + 1);
-        (mode, own.map_or(place, |(_, partner)| partner - 1))
+        let own = named.iter().find(|own| own.0 == mode);
+        (mode, own.map_or(place, |own| own.1 - 1))
     };
-    let all = ascending.into_iter().enumerate();
-    let alone = all.filter(|(_, mode)| data.alone.contains(mode) && job.selects(mode + 1));
     Ok(alone.map(partner).collect())
 }
 

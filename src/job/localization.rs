@@ -1,14 +1,8 @@
-//! Which parameter is wrong: by the paper's unlimited factor, a slope that tells little about gross errors, and by single fits.
+//! Which parameter is wrong, by single fits.
 
-use super::assignment::pair_cheaply;
+use super::pairs::pair_cheaply;
 use crate::{
-    method::{
-        analysis::Analysis,
-        error::Error,
-        inner_loop::{InnerSettings, first_factors},
-        modes::Modes,
-        sorting::Pairing,
-    },
+    method::{error::Error, modes::Modes, sorting::Pairing},
     sparse::{Deflections, ModeWeight},
     weighted::{
         comparison::Comparison,
@@ -41,25 +35,6 @@ impl Suspect {
     pub fn is_at_edge(&self) -> bool {
         self.factor.log10().abs() > (SPACING * f64::from(PLACES)) - FINEST
     }
-}
-
-/// By the change $|c - 1|$ that the unlimited factors (13) of the first iteration ask for, the largest first.
-///
-/// # Errors
-/// Those of [`first_factors`].
-pub fn by_factor(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<Suspect>, Error> {
-    let suspect = |(parameter, factor): (usize, f64)| Suspect {
-        parameter,
-        factor,
-        evidence: (factor - 1.0).abs(),
-    };
-    Ok(ranked(
-        first_factors(analysis, settings)?
-            .into_iter()
-            .enumerate()
-            .map(suspect)
-            .collect(),
-    ))
 }
 
 /// By how far each parameter alone can lower $\frac{1}{2} \sum r^2$ of the weighted residuals, the farthest first.
@@ -106,7 +81,10 @@ pub fn by_single_fit(
         })
     };
     let count = comparison.model.shares.len();
-    Ok(ranked((0..count).map(best).collect::<Result<_, _>>()?))
+    let mut suspects = (0..count).map(best).collect::<Result<Vec<_>, Error>>()?;
+    // Parameters that symmetry makes alike differ by round-off, which the digits of a single-precision number leave out; they stay in order.
+    suspects.sort_by(|a, b| (b.evidence as f32).total_cmp(&(a.evidence as f32)));
+    Ok(suspects)
 }
 
 /// Half the weighted squared error that no parameter explains yet: that of the first model in the pairs that leave the least.
@@ -145,10 +123,4 @@ fn least(modes: &Modes, comparison: &Comparison, weights: &[ModeWeight]) -> Resu
     }
     let (partners, _) = pair_cheaply(&costs)?;
     Ok(0.5 * with(partners.into_iter().flatten().collect()).norm_squared())
-}
-
-fn ranked(mut suspects: Vec<Suspect>) -> Vec<Suspect> {
-    // Parameters that symmetry makes alike differ by round-off, which the digits of a single-precision number leave out; they stay in order.
-    suspects.sort_by(|a, b| (b.evidence as f32).total_cmp(&(a.evidence as f32)));
-    suspects
 }

@@ -4,21 +4,16 @@
 //! [`LoadedJob::prepare`] analyses the first model and pairs the test modes with its modes; [`run`] looks for the factors and judges
 //! them. [`TEMPLATE`] is a job with every entry explained.
 
-#[doc(hidden)]
-pub mod assignment;
 mod bodies;
 pub(crate) mod concerns;
-mod entries;
-#[doc(hidden)]
-pub mod expansion;
 mod inputs;
-mod likelihood;
 #[doc(hidden)]
 pub mod localization;
 mod matrices;
 mod model;
 mod next_measurement;
-mod parts;
+#[doc(hidden)]
+pub mod pairs;
 #[doc(hidden)]
 pub mod preflight;
 mod repeats;
@@ -40,7 +35,7 @@ pub use judged::{HeldOut, JobResult, run};
 pub use loaded::LoadedJob;
 #[doc(hidden)]
 pub use matrices::matrix_modes;
-pub use model::{GridLayout, Members, ModelSource};
+pub use model::{Members, ModelSource};
 pub use next_measurement::{NextMeasurement, mean_deviation};
 pub use prepared::PreparedJob;
 pub use reach::LeftOut;
@@ -49,13 +44,16 @@ pub use sensors::PlacedSensor;
 use crate::{
     files::{
         disk::file_of,
-        error::{FileError, ensure, is_not},
+        error::{FileError, is_not},
         read_bytes,
         text::decoded,
     },
-    method::outer_loop::Settings,
+    method::{
+        inner_loop::InnerSettings,
+        outer_loop::Settings,
+        step::{Accumulation, Bounds, StepRule},
+    },
 };
-use entries::CorrelationEntries;
 use serde::Deserialize;
 use std::{
     collections::BTreeSet,
@@ -165,8 +163,6 @@ struct ParameterRule {
     each: bool,
     lower: Option<f64>,
     upper: Option<f64>,
-    lower_size: Option<f64>,
-    upper_size: Option<f64>,
     prior_deviation: Option<f64>,
 }
 
@@ -202,6 +198,47 @@ pub struct Compare {
     pub starts: Option<usize>,
     /// The seed of the first points after the model's own.
     pub seed: u64,
+}
+
+/// Entries of `[correlation]`; skipped fields keep the library's value.
+#[derive(Deserialize)]
+#[serde(
+    remote = "Settings",
+    default = "Settings::default",
+    deny_unknown_fields
+)]
+pub struct CorrelationEntries {
+    #[serde(with = "InnerEntries")]
+    inner: InnerSettings,
+    later_inner_tolerance: f64,
+    error_sum_tolerance: f64,
+    frequency_tolerance: f64,
+    shape_tolerance: f64,
+    #[serde(skip)]
+    least_passes: usize,
+    most_passes: usize,
+}
+
+#[derive(Deserialize)]
+#[serde(
+    remote = "InnerSettings",
+    default = "InnerSettings::default",
+    deny_unknown_fields
+)]
+struct InnerEntries {
+    #[serde(skip)]
+    first_relaxation: f64,
+    #[serde(skip)]
+    relaxation: f64,
+    factor_range: Bounds,
+    tolerance: f64,
+    #[serde(skip)]
+    halvings: usize,
+    #[serde(skip)]
+    iterations: usize,
+    step: StepRule,
+    #[serde(skip)]
+    accumulation: Accumulation,
 }
 
 /// Method that finds factors.
@@ -294,27 +331,26 @@ impl Job {
             .map_or_else(|| named.to_owned(), |folder| folder.join(named))
     }
 
-    /// The files it names: those of the model, then the test's.
-    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        let named = [
-            &self.model.deck,
-            &self.model.stiffness,
-            &self.model.mass,
-            &self.model.rows,
-        ]
-        .into_iter()
-        .chain(
-            self.parameters
-                .iter()
-                .flat_map(|rule| [&rule.matrix, &rule.stiffness, &rule.mass]),
-        )
-        .flatten();
-        named.chain(&self.test.file).chain(&self.test.repeats)
-    }
-
     /// Paths of all that it reads, its own last.
     pub fn inputs(&self) -> impl Iterator<Item = PathBuf> {
-        self.files()
+        let ModelFiles {
+            deck,
+            stiffness,
+            mass,
+            rows,
+            ..
+        } = &self.model;
+        let named = [deck, stiffness, mass, rows, &self.test.file]
+            .into_iter()
+            .flatten();
+        let parts = self
+            .parameters
+            .iter()
+            .flat_map(|rule| [&rule.matrix, &rule.stiffness, &rule.mass])
+            .flatten();
+        named
+            .chain(parts)
+            .chain(&self.test.repeats)
             .map(|file| self.beside(file))
             .chain([self.path.clone()])
     }
@@ -338,15 +374,21 @@ impl Job {
         })
     }
 
-    /// Name of the job's file.
-    pub(crate) fn stem(&self) -> String {
-        self.path
-            .file_stem()
-            .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
-    }
-
     fn refused(&self, reason: impl Into<String>) -> FileError {
         FileError::refused(self.path.display(), reason)
+    }
+
+    /// Refuses what is not met.
+    fn ensure<S: Into<String>>(
+        &self,
+        is_met: bool,
+        reason: impl FnOnce() -> S,
+    ) -> Result<(), FileError> {
+        if is_met {
+            Ok(())
+        } else {
+            Err(self.refused(reason()))
+        }
     }
 
     /// Refuses a second entry of the same name.
@@ -357,9 +399,7 @@ impl Job {
     ) -> Result<(), FileError> {
         let mut seen = BTreeSet::new();
         all.try_for_each(|one| {
-            ensure(seen.insert(one), || {
-                self.refused(format!("{what} {one} is named twice"))
-            })
+            self.ensure(seen.insert(one), || format!("{what} {one} is named twice"))
         })
     }
 
@@ -370,15 +410,14 @@ impl Job {
             let (first, last) = match labels {
                 Labels::One(label) => (*label, *label),
                 Labels::Range(text) => {
-                    let room = MOST_LABELS.saturating_sub(all.len());
                     let number = |text: &str| text.trim().parse::<usize>().ok();
-                    let ends = text
-                        .split_once('-')
-                        .and_then(|(first, last)| number(first).zip(number(last)))
-                        .filter(|(first, last)| first <= last && last - first < room);
-                    let what = "a range of numbers such as \"10-19\"; all of them together may be";
-                    let reason = || format!("{} at most {MOST_LABELS}", is_not(text, what));
-                    ends.ok_or_else(|| self.refused(reason()))?
+                    let ends = text.split_once('-');
+                    ends.and_then(|(first, last)| number(first).zip(number(last)))
+                        .filter(|(first, last)| first <= last && last - first < MOST_LABELS)
+                        .ok_or_else(|| {
+                            let what = "a range of at most ten million numbers such as \"10-19\"";
+                            self.refused(is_not(text, what))
+                        })?
                 }
             };
             all.extend(first..=last);

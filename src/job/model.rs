@@ -10,28 +10,17 @@ use crate::{
     },
     method::{
         appendix_a::{ElementMatrix, element_matrices},
-        error::Error,
+        step::Bounds,
         structure::{StructuralDof, Structure},
     },
     sparse::{
         SparseMatrix, Support, WholeModel, WholeParameter, WholeShare,
         elements::{lumped_masses, moving_mass_entries, stiffness_of, support},
     },
+    weighted::identifiability::PRIOR_DEVIATION,
 };
 use nalgebra::Vector3;
-use std::{
-    collections::{BTreeMap, BTreeSet},
-    path::Path,
-};
-
-/// Positions of a model's grids, and the grids that elements join.
-#[derive(Debug, Clone, PartialEq)]
-pub struct GridLayout {
-    /// The place of every grid that has one, in units of length.
-    pub places: BTreeMap<usize, Vector3<f64>>,
-    /// The corners of every element, by grid.
-    pub elements: Vec<Vec<usize>>,
-}
+use std::{collections::BTreeMap, path::Path};
 
 /// Elements and point masses of a deck that a parameter scales, by label, ascending.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -53,8 +42,10 @@ pub struct ModelSource {
     pub labels: Vec<Label>,
     /// Names of its stiffness and mass where they came as DMIG.
     pub dmig: [Option<String>; 2],
-    /// Grids of the model.
-    pub geometry: GridLayout,
+    /// The place of every grid that has one, in units of length.
+    pub places: Places,
+    /// The corners of every element, by grid.
+    pub elements: Vec<Vec<usize>>,
     /// Rows of the model and their coefficients for every degree of freedom that moves, rotations (directions 3 to 5) among them.
     pub motions: Motions,
     /// The deck's bytes and the deck read from them, if the model is one.
@@ -65,21 +56,15 @@ pub struct ModelSource {
     pub priors: Vec<f64>,
     /// Mass that moves along x, y and z.
     pub mass: Vector3<f64>,
-    /// Center of the mass, if all of it has a place.
-    pub mass_center: Option<Vector3<f64>>,
     /// Names of the rows left out, in parts of the model that no sensor sees.
     pub left_out: Vec<String>,
-    /// Names of those of them that nothing resists.
-    pub loose: Vec<String>,
 }
 
-/// A parameter by its name, with the first sizes of its elements.
-pub struct Part {
-    pub name: String,
-    pub share: WholeShare,
-    pub members: Members,
-    pub sizes: Vec<f64>,
-}
+/// A parameter, the elements and masses of a deck that it scales, and the deviation of its logarithm before the test.
+pub type Part = (WholeParameter, (Members, f64));
+
+/// Places of grids.
+pub type Places = BTreeMap<usize, Vector3<f64>>;
 
 /// Rows of a model and their coefficients for every degree of freedom that moves.
 pub type Motions = BTreeMap<StructuralDof, Vec<(usize, f64)>>;
@@ -89,20 +74,11 @@ impl ModelSource {
     pub(super) fn new(
         job: &Job,
         (stiffness, mass, support): (SparseMatrix, SparseMatrix, Support),
-        parts: Vec<(&ParameterRule, Part)>,
-        (geometry, motions): (GridLayout, Motions),
+        parts: Vec<Part>,
+        (places, motions): (Places, Motions),
         deck: Option<(Vec<u8>, Deck)>,
     ) -> Result<Self, FileError> {
-        let (mut parameters, mut members, mut priors) = (Vec::new(), Vec::new(), Vec::new());
-        for (rule, own) in parts {
-            parameters.push(WholeParameter {
-                range: rule.range(job, &own.sizes)?,
-                name: own.name,
-                share: own.share,
-            });
-            members.push(own.members);
-            priors.push(rule.prior(job)?);
-        }
+        let (parameters, (members, priors)) = parts.into_iter().unzip();
         let count = job.model.rigid_bodies;
         let support = Support { count, ..support };
         let whole = WholeModel::supported(stiffness, mass, parameters, support)?;
@@ -111,17 +87,16 @@ impl ModelSource {
             whole,
             labels: Vec::new(),
             dmig: Default::default(),
-            geometry,
+            places,
+            elements: Vec::new(),
             motions,
             members,
             priors,
             deck,
             mass: Vector3::zeros(),
-            mass_center: None,
             left_out: Vec::new(),
-            loose: Vec::new(),
         };
-        (source.mass, source.mass_center) = source.mass_and_center()?;
+        source.mass = source.moving_mass()?;
         Ok(source)
     }
 
@@ -155,68 +130,65 @@ impl ModelSource {
             (!own.is_empty()).then_some((*dof, own))
         };
         let left = (0..all).filter(|&row| at(row).is_none());
-        let (stiffness, _) = self.whole.at(&vec![1.0; self.whole.parameters().len()])?;
-        let stiff: BTreeSet<usize> = stiffness
-            .entries()
-            .filter(|entry| entry.2 != 0.0)
-            .map(|entry| entry.0)
-            .collect();
         let watched = Self {
             whole: self.whole.at_rows(&rows)?,
             motions: self.motions.iter().filter_map(motion).collect(),
-            left_out: left.clone().map(|row| self.row_name(row)).collect(),
-            loose: left
-                .clone()
-                .filter(|row| !stiff.contains(row))
-                .map(|row| self.row_name(row))
-                .collect(),
+            left_out: left.map(|row| self.row_name(row)).collect(),
             ..self.clone()
         };
         Ok(Some((watched, sensors.at_columns(&rows)?)))
     }
 
-    /// Mass that moves along x, y and z, and its center, if all of it has a place.
-    ///
-    /// In a model given by matrices, a row counts with its part of the momentum $M r$ of all rows of its direction at unit speed.
-    fn mass_and_center(&self) -> Result<(Vector3<f64>, Option<Vector3<f64>>), FileError> {
-        let placed: Vec<(Option<Vector3<f64>>, Vector3<f64>)> = match &self.deck {
-            Some((_, deck)) => deck
-                .model
-                .placed_masses()?
-                .into_iter()
-                .map(|(place, mass)| (Some(place), mass))
-                .collect(),
-            None => {
-                let dof: BTreeMap<usize, &StructuralDof> = self
-                    .motions
-                    .iter()
-                    .map(|(dof, rows)| (rows[0].0, dof))
-                    .collect();
-                let (_, mass) = self.whole.at(&vec![1.0; self.whole.parameters().len()])?;
-                let of_entry = |(row, column, value): (usize, usize, f64)| {
-                    let StructuralDof { grid, direction } = *dof.get(&row)?;
-                    let is_along = *direction < 3 && dof[&column].direction == *direction;
-                    let place = self.geometry.places.get(grid).copied();
-                    is_along.then(|| (place, Vector3::ith(*direction, value)))
-                };
-                mass.entries().filter_map(of_entry).collect()
+    /// Mass that moves along x, y and z: in a model given by matrices, what the rows of a direction have of each other's.
+    fn moving_mass(&self) -> Result<Vector3<f64>, FileError> {
+        if let Some((_, deck)) = &self.deck {
+            return Ok(deck.model.placed_masses()?.iter().map(|own| own.1).sum());
+        }
+        let motions = self
+            .motions
+            .iter()
+            .map(|(dof, rows)| (rows[0].0, dof.direction));
+        let direction: BTreeMap<usize, usize> = motions.collect();
+        let (_, mass) = self.whole.at(&vec![1.0; self.priors.len()])?;
+        let along = |(row, column, value): (usize, usize, f64)| {
+            let own = *direction.get(&row)?;
+            (own < 3 && direction[&column] == own).then(|| Vector3::ith(own, value))
+        };
+        Ok(mass.entries().filter_map(along).sum())
+    }
+}
+
+impl ParameterRule {
+    /// The parameter of this name and share.
+    pub(super) fn part(
+        &self,
+        job: &Job,
+        (name, share): (String, WholeShare),
+        members: Members,
+    ) -> Result<Part, FileError> {
+        let range = match (self.lower, self.upper) {
+            (None, None) => None,
+            (Some(lower), Some(upper)) => Some(Bounds::positive(
+                &format!("factor of parameter {}", self.name),
+                lower,
+                upper,
+            )?),
+            _ => {
+                return Err(job.refused(format!(
+                    "parameter \"{}\" needs both lower and upper, or neither",
+                    self.name
+                )));
             }
         };
-        let total: Vector3<f64> = placed.iter().map(|own| own.1).sum();
-        let moments: Option<Vector3<f64>> =
-            placed.iter().map(|own| Some(own.0? * own.1.sum())).sum();
-        let farthest = placed
-            .iter()
-            .flat_map(|own| own.0)
-            .fold(0.0_f64, |most, place| most.max(place.amax()));
-        // What is left of sums that cancel is no distance.
-        let told = |own: f64| own * f64::from(own.abs() >= 1e-9 * farthest);
-        Ok((
-            total,
-            moments
-                .filter(|_| total.sum() > 0.0)
-                .map(|own| (own / total.sum()).map(told)),
-        ))
+        let prior = self.prior_deviation.or(job.compare.prior_deviation);
+        let prior = prior.unwrap_or(PRIOR_DEVIATION);
+        job.ensure(prior > 0.0 && prior.is_finite(), || {
+            format!(
+                "parameter \"{}\": prior_deviation is {prior}; it must be positive and finite",
+                self.name
+            )
+        })?;
+        Ok((WholeParameter { name, share, range }, (members, prior)))
     }
 }
 
@@ -238,72 +210,72 @@ pub fn from_deck(job: &Job, file: &Path) -> Result<ModelSource, FileError> {
         .flat_map(|point| moving_mass_entries(&point.motion, &point.motion, point.mass))
         .collect();
     let motions: Motions = bulk.all_motions(&structure).collect();
-    let geometry = GridLayout {
-        places: bulk
-            .grids
-            .iter()
-            .map(|own| (own.label, own.position))
-            .collect(),
-        elements: bulk.elements.iter().map(|own| own.grids.clone()).collect(),
-    };
-    ModelSource::new(
-        job,
-        (
-            stiffness,
-            SparseMatrix::new("matrix of elements", count, count, mass)?,
-            support(&structure, &elements)?,
-        ),
-        deck_parts(job, &deck, (&structure, &elements))?,
-        (geometry, motions),
-        Some((bytes, deck)),
-    )
+    let places = bulk
+        .grids
+        .iter()
+        .map(|own| (own.label, own.position))
+        .collect();
+    let elements_at = bulk.elements.iter().map(|own| own.grids.clone()).collect();
+    let matrices = (
+        stiffness,
+        SparseMatrix::new("matrix of elements", count, count, mass)?,
+        support(&structure, &elements)?,
+    );
+    let parts = deck_parts(job, &deck, (&structure, &elements))?;
+    Ok(ModelSource {
+        elements: elements_at,
+        ..ModelSource::new(job, matrices, parts, (places, motions), Some((bytes, deck)))?
+    })
 }
 
 /// Parameters of a deck by the job's rules.
-fn deck_parts<'a>(
-    job: &'a Job,
+fn deck_parts(
+    job: &Job,
     deck: &Deck,
     (structure, elements): (&Structure, &[ElementMatrix]),
-) -> Result<Vec<(&'a ParameterRule, Part)>, FileError> {
+) -> Result<Vec<Part>, FileError> {
     let (bulk, count) = (&deck.model, structure.free_dof().len());
     let row_of = elements.iter().enumerate().map(|(row, e)| (e.label, row));
     let row_of: BTreeMap<usize, usize> = row_of.collect();
     let (mut parts, mut owner) = (Vec::new(), BTreeMap::new());
     for rule in &job.parameters {
-        for (name, members) in groups(job, rule, deck)? {
-            let (labels, masses) = (&members.elements, &members.masses);
-            let refused = |what| job.refused(format!("parameter \"{name}\": {what}"));
-            for &label in labels {
-                ensure(row_of.contains_key(&label), || {
-                    refused(format!("the deck has no element {label}"))
-                })?;
-                let own = (rule.scales == Scales::Mass, label);
-                if let Some(first) = owner.insert(own, name.clone()) {
-                    return Err(Error::Duplicate {
-                        owner: format!("parameters {first} and {name}"),
-                        what: "element",
-                        label,
-                    }
-                    .into());
-                }
+        let refused = |what: String| job.refused(format!("parameter \"{}\": {what}", rule.name));
+        let members = members(job, rule, deck)?;
+        for &label in &members.elements {
+            ensure(row_of.contains_key(&label), || {
+                refused(format!("the deck has no element {label}"))
+            })?;
+            let first = owner.insert((rule.scales == Scales::Mass, label), &rule.name);
+            if let Some(first) = first {
+                return Err(refused(format!(
+                    "element {label} is parameter \"{first}\"'s too"
+                )));
             }
-            for label in masses {
-                ensure(rule.scales == Scales::Mass, || {
-                    refused(format!("point mass {label} needs scales = \"mass\""))
-                })?;
-                ensure(bulk.masses.iter().any(|own| own.label == *label), || {
-                    refused(format!("the deck has no point mass {label}"))
-                })?;
-            }
-            let rows: Vec<usize> = labels.iter().map(|label| row_of[label]).collect();
-            let sizes: Vec<f64> = rows.iter().map(|&row| bulk.elements[row].size).collect();
+        }
+        for label in &members.masses {
+            ensure(rule.scales == Scales::Mass, || {
+                refused(format!("point mass {label} needs scales = \"mass\""))
+            })?;
+            ensure(bulk.masses.iter().any(|own| own.label == *label), || {
+                refused(format!("the deck has no point mass {label}"))
+            })?;
+        }
+        let groups = if rule.each {
+            members.each(&rule.name)
+        } else {
+            vec![(rule.name.clone(), members)]
+        };
+        for (name, members) in groups {
+            let rows: Vec<usize> = members.elements.iter().map(|label| row_of[label]).collect();
             let share = match rule.scales {
                 Scales::Stiffness => {
-                    let own = rows.iter().map(|&row| &elements[row]);
-                    WholeShare::Stiffness(stiffness_of(count, own.zip(sizes.iter().copied()))?)
+                    let own = rows
+                        .iter()
+                        .map(|&row| (&elements[row], bulk.elements[row].size));
+                    WholeShare::Stiffness(stiffness_of(count, own)?)
                 }
                 Scales::Mass => {
-                    let entries = mass_entries(deck, structure, (&rows, masses));
+                    let entries = mass_entries(deck, structure, (&rows, &members.masses));
                     WholeShare::Mass(SparseMatrix::new(
                         "mass of elements",
                         count,
@@ -312,13 +284,7 @@ fn deck_parts<'a>(
                     )?)
                 }
             };
-            let part = Part {
-                name,
-                share,
-                members,
-                sizes,
-            };
-            parts.push((rule, part));
+            parts.push(rule.part(job, (name, share), members)?);
         }
     }
     Ok(parts)
@@ -344,65 +310,48 @@ fn mass_entries(
     entries
 }
 
-/// Names and members of the parameters that a rule makes of a deck.
-fn groups(
-    job: &Job,
-    rule: &ParameterRule,
-    deck: &Deck,
-) -> Result<Vec<(String, Members)>, FileError> {
-    let ParameterRule {
-        name,
-        properties,
-        materials,
-        ..
-    } = rule;
+/// Elements and masses of a deck that a rule names.
+fn members(job: &Job, rule: &ParameterRule, deck: &Deck) -> Result<Members, FileError> {
+    let refused = |what: String| job.refused(format!("parameter \"{}\" {what}", rule.name));
     ensure(rule.matrix.is_none(), || {
-        job.refused(format!(
-            "parameter \"{name}\": in a deck, name elements or masses instead of a matrix"
-        ))
+        refused("names a matrix; in a deck, name elements or masses".into())
     })?;
     let (mut elements, masses) = (job.labels(&rule.elements)?, job.labels(&rule.masses)?);
-    let is_of = |of: &Membership| {
-        of.property.is_some_and(|p| properties.contains(&p)) || materials.contains(&of.material)
-    };
-    elements.extend(
-        deck.members
-            .iter()
-            .filter(|own| is_of(own.1))
-            .map(|own| *own.0),
-    );
-    let members = || deck.members.values();
-    let property = properties
-        .iter()
-        .find(|label| members().all(|of| of.property != Some(**label)));
-    let material = materials
-        .iter()
-        .find(|label| members().all(|of| of.material != **label));
-    if let Some(label) = property.or(material) {
-        return Err(job.refused(format!(
-            "parameter \"{name}\": no element of the deck has property or material {label}"
-        )));
+    for (labels, is_property) in [(&rule.properties, true), (&rule.materials, false)] {
+        for &label in labels {
+            let is_of = |of: &Membership| {
+                if is_property {
+                    of.property == Some(label)
+                } else {
+                    of.material == label
+                }
+            };
+            let own = deck.members.iter().filter(|own| is_of(own.1));
+            let mut own = own.map(|own| *own.0).peekable();
+            ensure(own.peek().is_some(), || {
+                refused(format!(
+                    "names {label}, which is property or material of no element"
+                ))
+            })?;
+            elements.extend(own);
+        }
     }
     ensure(elements.len() + masses.len() > 0, || {
-        job.refused(format!(
-            "parameter \"{name}\" names no elements and no masses"
-        ))
+        refused("names no elements and no masses".into())
     })?;
     let [elements, masses] = [elements, masses].map(Vec::from_iter);
-    if !rule.each {
-        return Ok(vec![(name.clone(), Members { elements, masses })]);
+    Ok(Members { elements, masses })
+}
+
+impl Members {
+    /// Each by itself, with its name.
+    fn each(&self, name: &str) -> Vec<(String, Self)> {
+        let elements = self.elements.iter();
+        let elements = elements.map(|own| (format!("{name} {own}"), vec![*own], Vec::new()));
+        let masses = self.masses.iter();
+        let masses = masses.map(|own| (format!("{name} mass {own}"), Vec::new(), vec![*own]));
+        let all = elements.chain(masses);
+        all.map(|(name, elements, masses)| (name, Self { elements, masses }))
+            .collect()
     }
-    let of_element = |&label: &usize| {
-        let (elements, masses) = (vec![label], Vec::new());
-        (format!("{name} {label}"), Members { elements, masses })
-    };
-    let of_mass = |&label: &usize| {
-        let (elements, masses) = (Vec::new(), vec![label]);
-        (format!("{name} mass {label}"), Members { elements, masses })
-    };
-    Ok(elements
-        .iter()
-        .map(of_element)
-        .chain(masses.iter().map(of_mass))
-        .collect())
 }

@@ -3,22 +3,22 @@
 use super::{
     LoadedJob, Method,
     bodies::{explained, with_as_many},
-    expansion::mass_by_modes,
-    likelihood::{FLOOR, decided, pairs},
     loaded::ascend,
+    pairs::{FLOOR, pairs},
     reach::{LeftOut, TAKEN, UNLIKE},
 };
 use crate::{
-    files::error::{FileError, ensure},
+    files::error::FileError,
     method::{error::Error, modes::Modes},
     sparse::{Deflections, ModeWeight, Place, SensorModel, parts_of},
     weighted::{
         close_modes::{assurance_of_roots, indistinct_groups},
         comparison::{Comparison, LoneFrequency},
         gauss_newton::WeightedSettings,
+        noise::Noise,
     },
 };
-use nalgebra::{DMatrix, DVectorView};
+use nalgebra::DMatrix;
 use std::sync::Arc;
 
 /// Residual vectors a parameter: more add less than the lowest mode left out.
@@ -38,12 +38,8 @@ pub struct PreparedJob {
     pub modes: Vec<usize>,
     /// Test modes, from zero, that resemble no mode of the first model.
     pub unpaired: Vec<LeftOut>,
-    /// Test modes, from zero, that were left out at first and are compared since.
-    pub joined: Vec<usize>,
     /// Test modes, from zero, that make others worse from this end, and so stay left out.
     pub(super) refused: Vec<usize>,
-    /// Test modes, from zero, that several modes of the first model resemble equally, and which are paired in the order of frequencies.
-    pub undecided: Vec<usize>,
     /// Groups of the compared test modes with shapes, by place, that the test or the first model does not tell apart.
     pub together: Vec<Vec<usize>>,
     /// Number of modes of the model that are taken.
@@ -62,17 +58,15 @@ impl PreparedJob {
         let job = &loaded.job;
         if job.compare.method == Method::Paper {
             let starts = job.compare.starts.unwrap_or(1);
-            ensure(starts <= 1, || {
-                job.refused(format!(
-                    "compare.starts is {starts}, but method \"paper\" has one start"
-                ))
+            job.ensure(starts <= 1, || {
+                format!("compare.starts is {starts}, but method \"paper\" has one start")
             })?;
-            if let Some((mode, _)) = loaded.alone.first() {
-                return Err(job.refused(format!(
+            job.ensure(loaded.alone.is_empty(), || {
+                format!(
                     "test mode {} has a frequency alone, and compare.method \"paper\" compares shapes; \"gauss_newton\" needs none",
-                    mode + 1
-                )));
-            }
+                    loaded.alone[0].0 + 1
+                )
+            })?;
         }
         let (analysis_modes, first) = first_analysis(&loaded)?;
         let modes = loaded.shaped();
@@ -80,9 +74,7 @@ impl PreparedJob {
             test: loaded.measured(&modes)?,
             modes,
             unpaired: Vec::new(),
-            joined: Vec::new(),
             refused: Vec::new(),
-            undecided: Vec::new(),
             together: Vec::new(),
             analysis_modes,
             open: first.open_frequencies()?,
@@ -97,97 +89,66 @@ impl PreparedJob {
     /// Leaves out the test modes that resemble no mode of the first model, unless none does: then the pre-flight names the mistake.
     fn leave_out(&mut self) -> Result<(), FileError> {
         let exact = &self.first.modes(self.analysis_modes)?;
-        let assurance = decided(&assurance_of_roots(exact, &self.test.shapes)?);
-        let is_tied = |place: &usize| {
-            let column = assurance.column(*place);
-            let most = column.max();
-            column.iter().filter(|close| **close == most).count() > 1
-        };
+        let assurance = assurance_of_roots(exact, &self.test.shapes)?;
         let parts = parts_of(&self.first.shares(exact.len()), exact);
         let costs = self.frequencies(&self.modes).costs(exact, &parts);
         let partners = pairs(&assurance, &exact.shapes, Some(&costs), FLOOR)?;
-        let all = || 0..partners.len();
-        self.undecided = all()
-            .filter(is_tied)
-            .map(|place| self.modes[place])
-            .collect();
-        let (kept, left): (Vec<_>, Vec<_>) = all().partition(|&place| partners[place].is_some());
-        let left_out = |place: usize| {
-            let assurance = assurance.column(place).max();
-            LeftOut {
-                mode: self.modes[place],
-                assurance,
-                why: match assurance < FLOOR {
-                    true => UNLIKE,
-                    false => TAKEN,
-                },
-            }
-        };
-        self.unpaired = left.into_iter().map(left_out).collect();
-        for (mode, partner) in self.alone() {
-            if let Some(other) = partners.iter().position(|own| *own == Some(*partner)) {
-                let (mode, other, partner) = (mode + 1, self.modes[other] + 1, partner + 1);
-                return Err(self.loaded.job.refused(format!(
-                    "test.partners: mode {partner} of the model is the partner of test mode {mode}, which has a frequency alone, and by \
-                     its shape of test mode {other}"
-                )));
-            }
+        let mut kept = Vec::new();
+        for (place, partner) in partners.into_iter().enumerate() {
+            let mode = self.modes[place];
+            let Some(partner) = partner else {
+                let assurance = assurance.column(place).max();
+                let why = if assurance < FLOOR { UNLIKE } else { TAKEN };
+                self.unpaired.push(LeftOut {
+                    mode,
+                    assurance,
+                    why,
+                });
+                continue;
+            };
+            kept.push(place);
+            let mut alone = self.loaded.alone.iter();
+            self.loaded.job.ensure(alone.all(|own| own.1 != partner), || {
+                format!(
+                    "test.partners: mode {} of the model, a partner of a frequency alone, is by its shape that of test mode {}",
+                    partner + 1,
+                    mode + 1
+                )
+            })?;
         }
-        if !kept.is_empty() {
-            self.test = self.test.select(&kept);
-            self.modes = kept.into_iter().map(|place| self.modes[place]).collect();
+        if kept.is_empty() {
+            // No more than a model of few modes has.
+            kept = (0..self.modes.len().min(exact.len())).collect();
         }
+        self.test = self.test.select(&kept);
+        self.modes = kept.into_iter().map(|place| self.modes[place]).collect();
         Ok(())
     }
 
     /// The same job with its first comparison, in which groups of modes are compared that the test or this model does not tell apart: their
     /// frequencies are no further apart than the test's deviations tell, or those of their partners than by others ([`indistinct_groups`]).
     fn compare(mut self) -> Result<Self, FileError> {
-        let first = match self.analyze(&self.loaded.ones()) {
-            // Even with more test modes than the model has modes, the pre-flight looks for the mistake.
-            Err(Error::Count {
-                what: "test modes", ..
-            }) => return Ok(self),
-            first => first?,
-        };
-        let exact = &first.model.exact;
-        let (hertz, roots) = (self.test.frequencies_hz(), exact.modes.frequencies_hz());
-        let deviation = |&mode: &usize| self.loaded.deviations(mode).frequency;
-        let deviations: Vec<f64> = self.modes.iter().map(deviation).collect();
-        let partners = exact.pairing.analysis_mode.iter();
-        let of_model: Vec<f64> = partners.map(|&mode| roots[mode]).collect();
-        let mut groups = indistinct_groups(&hertz, &deviations);
-        for more in indistinct_groups(&of_model, &vec![EQUAL; hertz.len()]) {
-            let (meeting, apart): (Vec<_>, Vec<_>) = groups
-                .into_iter()
-                .partition(|group: &Vec<usize>| group.iter().any(|mode| more.contains(mode)));
-            groups = apart;
-            groups.push(meeting.concat());
+        let first = self.analyze(&self.loaded.ones())?;
+        if self.loaded.job.compare.method == Method::GaussNewton {
+            let exact = &first.model.exact;
+            let (hertz, roots) = (self.test.frequencies_hz(), exact.modes.frequencies_hz());
+            let deviation = |&mode: &usize| self.loaded.deviations(mode).frequency;
+            let deviations: Vec<f64> = self.modes.iter().map(deviation).collect();
+            let partners = exact.pairing.analysis_mode.iter();
+            let of_model: Vec<f64> = partners.map(|&mode| roots[mode]).collect();
+            let mut groups = indistinct_groups(&hertz, &deviations);
+            for more in indistinct_groups(&of_model, &vec![EQUAL; hertz.len()]) {
+                let meets = |group: &mut Vec<usize>| group.iter().any(|mode| more.contains(mode));
+                let meeting = groups.extract_if(.., meets).flatten().collect();
+                groups.push(meeting);
+            }
+            // In ascending frequency, as the modes are.
+            groups.iter_mut().for_each(|group| group.sort_unstable());
+            groups.sort_unstable();
+            self.together = groups;
         }
-        // In ascending frequency, as the modes are.
-        groups.iter_mut().for_each(|group| group.sort_unstable());
-        groups.sort_unstable();
-        self.comparison = Some(match self.loaded.job.compare.method {
-            Method::Paper => first,
-            Method::GaussNewton => first.with_groups(groups.clone())?,
-        });
-        self.together = groups;
+        self.comparison = Some(first.with_groups(self.together.clone())?);
         Ok(self)
-    }
-
-    /// The first comparison.
-    ///
-    /// # Errors
-    /// [`Error::Count`] where the model has fewer modes than the test.
-    pub fn first_comparison(&self) -> Result<Comparison, Error> {
-        self.comparison
-            .clone()
-            .map_or_else(|| self.analyze(&self.loaded.ones()), Ok)
-    }
-
-    /// Test modes, from zero, of which a frequency alone is compared, ascending, with their partners in the first model.
-    pub fn alone(&self) -> &[(usize, usize)] {
-        &self.loaded.alone
     }
 
     /// Test modes with shapes, from zero, that the job selects and does not compare.
@@ -209,27 +170,19 @@ impl PreparedJob {
             .not_compared()
             .filter(|mode| !self.refused.contains(mode));
         let all: Vec<usize> = self.modes.iter().copied().chain(left).collect();
-        if all.len() == self.modes.len() {
-            return Ok(None);
-        }
         let (exact, test) = (&model.model.exact.modes, self.loaded.measured(&all)?);
         let assurance = assurance_of_roots(exact, &test.shapes)?;
         let within = self.within(&assurance, &all, &self.reach(model));
         let costs = self.frequencies(&all).costs(exact, &model.model.parts());
         let partners = pairs(&within, &exact.shapes, Some(&costs), FLOOR)?;
-        let (compared, left) = partners.split_at(self.modes.len());
-        let joined: Vec<usize> = left
-            .iter()
-            .zip(&all[self.modes.len()..])
-            .filter(|(partner, _)| partner.is_some())
-            .map(|(_, mode)| *mode)
-            .take(most)
-            .collect();
-        if joined.is_empty() || compared.contains(&None) {
+        let count = self.modes.len();
+        let joined = all.iter().zip(&partners).skip(count);
+        let joined = joined.filter(|own| own.1.is_some()).map(|own| *own.0);
+        let joined: Vec<usize> = joined.take(most).collect();
+        if joined.is_empty() || partners[..count].contains(&None) {
             return Ok(None);
         }
         let mut again = self.comparing_too(&joined)?.compare()?;
-        again.joined.extend(joined);
         again.refused.clear();
         Ok(Some(again))
     }
@@ -245,7 +198,7 @@ impl PreparedJob {
         Ok(again)
     }
 
-    /// The same job for a look far from the first model, with that model: it compares every selected test mode, those too that resemble no
+    /// The same job for a look far from the first model: it compares every selected test mode, those too that resemble no
     /// mode of it, and takes twice as many modes unless the job says how many. Where one parameter is grossly wrong, the modes that
     /// tell of it are neither like those of the model nor made of its lowest.
     ///
@@ -253,20 +206,14 @@ impl PreparedJob {
     ///
     /// # Errors
     /// Those of the test's shapes and of [`PreparedJob::analyze`].
-    pub fn far_from_first(&self) -> Result<(Self, Comparison), FileError> {
+    pub fn far_from_first(&self) -> Result<Self, FileError> {
         let left: Vec<usize> = self.not_compared().collect();
-        let mut far = match left.is_empty() {
-            true => self.clone(),
-            false => self.comparing_too(&left)?,
-        };
+        let mut far = self.comparing_too(&left)?;
         if self.loaded.job.compare.analysis_modes.is_none() {
-            far.analysis_modes =
-                (2 * self.analysis_modes).min(self.loaded.source.whole.dof_count());
+            let most = self.loaded.source.whole.dof_count();
+            far.analysis_modes = (2 * self.analysis_modes).min(most);
         }
-        let far = far.compare().ok().filter(|far| far.comparison.is_some());
-        let far = far.unwrap_or_else(|| self.clone());
-        let first = far.first_comparison()?;
-        Ok((far, first))
+        Ok(far.compare().unwrap_or_else(|_| self.clone()))
     }
 
     /// True if no test mode with a shape has a partner.
@@ -274,43 +221,12 @@ impl PreparedJob {
         !self.unpaired.is_empty() && self.unpaired.len() == self.loaded.shaped().len()
     }
 
-    /// Refuses a correlation in which no test mode has a partner.
-    ///
-    /// # Errors
-    /// [`FileError::Refused`].
-    pub(super) fn check_paired(&self) -> Result<(), FileError> {
-        ensure(!self.is_without_pairs(), || {
-            let best = self.unpaired.iter().map(|left| left.assurance);
-            let best = best.fold(0.0, f64::max);
-            self.loaded.job.refused(format!(
-                "no mode of the model is like a test mode: their modal assurance is {best:.3} at most, less than {FLOOR}; \
-                 corfem check looks for the mistake"
-            ))
-        })
-    }
-
-    /// The mass at the sensors that cross-orthogonality is to be measured with: that of the modes of a model that the test modes are
-    /// paired with, whatever other modes are taken; none where a test shape has no part of them, or where they are so alike at the sensors
-    /// that what the test's noise adds may be one: noise over the least singular value of the modes, by two deviations.
-    pub fn mass_at_sensors(&self, comparison: &Comparison) -> Option<DMatrix<f64>> {
-        let (exact, test) = (&comparison.model.exact, &comparison.model.test);
-        // A reading's deviation over the length of its shape.
-        let noise = |(shape, &mode): (DVectorView<f64>, &usize)| {
-            self.loaded.deviations(mode).shape * shape.amax() / shape.norm()
-        };
-        let noise = test.shapes.column_iter().zip(&self.modes).map(noise);
-        let least = 2.0 * noise.fold(0.0, f64::max);
-        let partners = &exact.pairing.analysis_mode;
-        let mass = mass_by_modes(&exact.modes.shapes.select_columns(partners), least)?;
-        test.scaled_with(&mass).ok().map(|_| mass)
-    }
-
     /// Test modes that are compared, from zero: those with shapes, then those without.
     pub fn compared(&self) -> impl Iterator<Item = usize> {
         self.modes
             .iter()
             .copied()
-            .chain(self.alone().iter().map(|own| own.0))
+            .chain(self.loaded.alone.iter().map(|own| own.0))
     }
 
     /// Settings of weighted steps with the job's priors.
@@ -330,48 +246,43 @@ impl PreparedJob {
     /// The weight of every test mode, of those without shapes last: one over its standard deviation, times the job's weight; of those that
     /// are held out alone, or of those that are fitted.
     pub(super) fn weights_of(&self, is_held_out: bool) -> Vec<ModeWeight> {
-        let weight = |(own, mode): (ModeWeight, usize)| {
-            let noise = self.loaded.deviations(mode);
-            ModeWeight {
-                frequency: own.frequency / noise.frequency.hypot(self.open_part(mode)),
-                shape: own.shape / noise.shape,
-            }
-        };
-        self.own_weights(is_held_out)
-            .into_iter()
-            .zip(self.compared())
-            .map(weight)
-            .collect()
+        self.weights_by(is_held_out, |mode| self.noise(mode))
+    }
+
+    /// Standard deviations of a test mode, with what the digits of the model leave open of its frequency.
+    pub(super) fn noise(&self, mode: usize) -> Noise {
+        let noise = self.loaded.deviations(mode);
+        let frequency = noise.frequency.hypot(self.open_part(mode));
+        Noise { frequency, ..noise }
     }
 
     /// The part of a test mode's frequency that the digits of the model's matrices leave open, as a standard deviation: that of the nearest
     /// mode of the first model.
     pub(super) fn open_part(&self, mode: usize) -> f64 {
         let own = self.loaded.data.frequencies_hz[mode];
-        let far = |hertz: f64| (hertz / own).ln().abs();
-        let nearest = self
-            .open
-            .iter()
-            .min_by(|a, b| far(a[0]).total_cmp(&far(b[0])));
+        let far = |open: &&[f64; 2]| (open[0] / own).ln().abs();
+        let nearest = self.open.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
         nearest.map_or(0.0, |nearest| nearest[1])
     }
 
-    /// The job's own weights of the test modes, ones where it has none, of those that are held out or of the others; zeros of the rest.
-    pub(super) fn own_weights(&self, is_held_out: bool) -> Vec<ModeWeight> {
+    /// The job's own weights of the test modes, ones where it has none, over deviations, of those that are held out or of the others; zeros
+    /// of the rest.
+    fn weights_by(&self, is_held_out: bool, noise: impl Fn(usize) -> Noise) -> Vec<ModeWeight> {
         let job = &self.loaded.job;
         let weight = |mode: usize| {
+            if job.test.hold_out.contains(&(mode + 1)) != is_held_out {
+                return ModeWeight::NONE;
+            }
             let mut numbers = self.loaded.numbers.iter();
             let place = numbers.position(|number| *number == mode + 1);
             let of = |list: &Option<Vec<f64>>| {
                 let own = list.as_ref().zip(place);
                 own.map_or(1.0, |(list, place)| list[place])
             };
-            match job.test.hold_out.contains(&(mode + 1)) == is_held_out {
-                true => ModeWeight {
-                    frequency: of(&job.compare.frequency_weights),
-                    shape: of(&job.compare.shape_weights),
-                },
-                false => ModeWeight::NONE,
+            let noise = noise(mode);
+            ModeWeight {
+                frequency: of(&job.compare.frequency_weights) / noise.frequency,
+                shape: of(&job.compare.shape_weights) / noise.shape,
             }
         };
         self.compared().map(weight).collect()
@@ -394,49 +305,46 @@ impl PreparedJob {
         let (whole, modes) = (&self.loaded.source.whole, self.analysis_modes);
         // Exact slopes want more modes than the basis has.
         let most = modes.max(2 * self.test.len());
-        let place = match factors == self.loaded.ones() {
-            true => Arc::clone(&self.first),
-            false => whole.exactly(factors, &self.loaded.sensors, modes..=most, near)?,
+        let place = match (factors == self.loaded.ones(), &self.comparison) {
+            (true, Some(first)) => return Ok(first.clone()),
+            (true, None) => Arc::clone(&self.first),
+            _ => whole.exactly(factors, &self.loaded.sensors, modes..=most, near)?,
         };
         self.beside(place, self.loaded.job.compare.method)
     }
 
     /// An analysis beside the test, as a method compares them.
     pub(super) fn beside(&self, place: Arc<Place>, method: Method) -> Result<Comparison, Error> {
-        let with = |further| {
-            SensorModel::of_whole(
-                place,
-                self.analysis_modes,
-                &self.test,
-                self.pair(method),
-                Deflections::Each(further),
-            )
-        };
-        if method == Method::Paper {
-            return Ok(with(RESIDUAL_VECTORS)?
-                .weighted(&self.own_weights(false))?
-                .into());
+        let is_paper = method == Method::Paper;
+        let model = SensorModel::of_whole(
+            place,
+            self.analysis_modes,
+            &self.test,
+            self.pair(method),
+            // Weighted steps have deflections of their own.
+            Deflections::Each(if is_paper { RESIDUAL_VECTORS } else { 0 }),
+        )?;
+        if is_paper {
+            let one = |_| Noise {
+                frequency: 1.0,
+                shape: 1.0,
+            };
+            return Ok(model.weighted(&self.weights_by(false, one))?.into());
         }
-        // Weighted steps have deflections of their own.
         let lone = |&(mode, partner): &(usize, usize)| LoneFrequency {
             frequency_hz: self.loaded.data.frequencies_hz[mode],
             partner,
         };
-        let lone: Vec<_> = self.alone().iter().map(lone).collect();
-        let partners: Vec<usize> = lone.iter().map(|own| own.partner).collect();
-        let comparison = Comparison::from(with(0)?)
+        let alone = self.loaded.alone.iter();
+        let comparison = Comparison::from(model)
             .with_groups(self.together.clone())?
             .with_component_weights(self.component_weights())?
-            .with_lone_frequencies(lone)?;
-        match partners.is_empty() {
-            true => Ok(comparison),
-            false => comparison.followed_by_shape(
-                self.first
-                    .modes(self.analysis_modes)?
-                    .shapes
-                    .select_columns(&partners),
-            ),
+            .with_lone_frequencies(alone.clone().map(lone).collect())?;
+        if self.loaded.alone.is_empty() {
+            return Ok(comparison);
         }
+        let first = self.first.modes(self.analysis_modes)?.shapes;
+        comparison.followed_by_shape(first.select_columns(alone.map(|own| &own.1)))
     }
 
     /// One over the deviations of components where the test gives them, times the mode's ([`LoadedJob::deviations`]), else one. They are
@@ -461,24 +369,20 @@ impl PreparedJob {
 /// at too, twice the usual number, and some more than the job takes, so that the root of the last of them is there with all its modes.
 fn first_analysis(loaded: &LoadedJob) -> Result<(usize, Arc<Place>), FileError> {
     let (whole, usual) = (&loaded.source.whole, loaded.usual_modes());
-    let asked = loaded.job.compare.analysis_modes;
-    let modes = asked.unwrap_or(usual.min(whole.dof_count()));
-    let partners = loaded.alone.iter().map(|own| own.1 + 1);
-    let highest = partners.max().unwrap_or(0);
-    ensure(highest <= modes, || {
-        loaded.job.refused(format!(
+    let modes = loaded.job.compare.analysis_modes;
+    let modes = modes.unwrap_or(usual.min(whole.dof_count()));
+    let highest = loaded.alone.iter().map(|own| own.1 + 1);
+    let highest = highest.max().unwrap_or(0);
+    loaded.job.ensure(highest <= modes, || {
+        format!(
             "test.partners: mode {highest} of the model is not among the {modes} taken; see compare.analysis_modes"
-        ))
+        )
     })?;
-    let analyze = |modes: usize| {
+    let first = with_as_many(modes, |modes: usize| {
         let twice = 2 * usual;
         let most = if modes + 2 < twice { twice } else { modes + 8 };
         whole.exactly(&loaded.ones(), &loaded.sensors, modes..=most, None)
-    };
-    let first = match asked {
-        Some(_) => analyze(modes).map(|first| (modes, first)),
-        None => with_as_many(modes, analyze),
-    };
+    });
     let name = |row| loaded.source.row_name(row);
     let file = loaded.job.path.display();
     let (modes, first) = first.map_err(|error| explained(error, file, whole.half_unit(), name))?;

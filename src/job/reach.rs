@@ -3,8 +3,7 @@
 use super::{
     PreparedJob,
     concern::{Check, Concern, Grade},
-    likelihood::FLOOR,
-    preflight::FEWER,
+    pairs::FLOOR,
 };
 use crate::{
     files::error::FileError,
@@ -16,9 +15,6 @@ use nalgebra::DMatrix;
 
 /// Deviations of a prior, or of a measured frequency, within which all but one in sixteen thousand lie.
 const FAR: f64 = 4.0;
-
-/// Ratio of two frequencies beyond which a stiffness is wrong more than twofold, or something else is.
-const FAR_APART: f64 = 1.5;
 
 /// A test mode that is not compared, and why.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,10 +28,9 @@ pub struct LeftOut {
 }
 
 /// Reasons for which a test mode is not compared.
-pub const UNLIKE: &str = "it resembles no mode of the model";
+pub const UNLIKE: &str = "it resembles no mode of the model that can have its frequency";
 pub const TAKEN: &str = "the mode of the model that it resembles belongs to another test mode";
 const HARM: &str = "compared it makes the others worse";
-const OUT_OF_REACH: &str = "no mode of the model that it resembles can have its frequency within the bounds and priors of the parameters";
 
 impl LeftOut {
     /// The concern that says so: a remark before the steps.
@@ -58,74 +53,60 @@ impl PreparedJob {
     /// at the factors $c$ with $K_e$, $M_e$ scaled by them.
     pub(super) fn reach(&self, model: &Comparison) -> Vec<Bounds> {
         let source = &self.loaded.source;
-        let ranges = source.whole.ranges();
-        let (exact, shares) = (&model.model.exact, &model.model.shares);
-        let room = |e: usize| {
-            let prior = (FAR * source.priors[e]).exp();
-            let (lower, upper) = (1.0 / prior, prior);
-            let range = ranges[e].unwrap_or(Bounds { lower, upper });
-            // The state of an analysis has factors on what it began with; its place knows them all.
-            let now = model.model.whole().map_or(1.0, |place| place.factors[e]);
-            [range.lower / now - 1.0, range.upper / now - 1.0]
-        };
-        let hertz = exact.modes.frequencies_hz();
+        let (ranges, exact) = (source.whole.ranges(), &model.model.exact.modes);
         let of_mode = |(mode, hertz): (usize, f64)| {
-            let square = exact.modes.omega_squared[mode];
-            let (mut soft, mut stiff) = ([1.0; 2], [1.0; 2]);
-            for (e, share) in shares.iter().enumerate() {
+            // Least and most of a stiffness and of a mass.
+            let mut ends = [[1.0; 2]; 2];
+            for (e, share) in model.model.shares.iter().enumerate() {
+                let prior = (FAR * source.priors[e]).exp();
+                let range = ranges[e].unwrap_or(Bounds {
+                    lower: 1.0 / prior,
+                    upper: prior,
+                });
+                // The state of an analysis has factors on what it began with; its place knows them all.
+                let now = model.model.whole().map_or(1.0, |place| place.factors[e]);
                 // Round-off may leave a negative part.
-                let mut ends = room(e).map(|far| share.part(mode, square) * far);
-                ends.sort_by(f64::total_cmp);
-                let at = usize::from(matches!(share, ParameterMatrix::Mass(_)));
-                soft[at] += ends[at];
-                stiff[at] += ends[1 - at];
+                let part = share.part(mode, exact.omega_squared[mode]).max(0.0);
+                let [least, most] =
+                    &mut ends[usize::from(matches!(share, ParameterMatrix::Mass(_)))];
+                *least += part * (range.lower / now - 1.0);
+                *most += part * (range.upper / now - 1.0);
             }
-            let root = |of: [f64; 2]| (of[0].max(0.0) / of[1].max(f64::MIN_POSITIVE)).sqrt();
+            let [stiffness, mass] = ends;
+            let root = |stiffness: f64, mass: f64| {
+                (stiffness.max(0.0) / mass.max(f64::MIN_POSITIVE)).sqrt()
+            };
             Bounds {
-                lower: hertz * root(soft),
-                upper: hertz * root(stiff),
+                lower: hertz * root(stiffness[0], mass[1]),
+                upper: hertz * root(stiffness[1], mass[0]),
             }
         };
-        hertz.into_iter().enumerate().map(of_mode).collect()
+        exact
+            .frequencies_hz()
+            .into_iter()
+            .enumerate()
+            .map(of_mode)
+            .collect()
     }
 
-    /// Doubts about pairs of the first model that no factors can bring together, and remarks on those far apart, which a test in other
-    /// units has too.
-    pub(super) fn frequency_concerns(&self) -> Vec<Concern> {
-        let Some(first) = &self.comparison else {
-            return vec![Concern::not_checked(Check::Reach, FEWER)];
-        };
-        let hertz = first.model.exact.modes.frequencies_hz();
-        let reach = self.reach(first);
+    /// Doubts about pairs of the first model that no factors can bring together.
+    pub(super) fn frequency_concerns(&self) -> Result<Vec<Concern>, FileError> {
+        let first = self.analyze(&self.loaded.ones())?;
+        let (reach, hertz) = (self.reach(&first), &self.loaded.data.frequencies_hz);
+        let both = self.compared().zip(first.partners());
+        let beyond = both.filter(|(test, partner)| !self.is_within(reach[*partner], *test));
         let concern = |(test, partner): (usize, usize)| {
-            let (own, near) = (self.loaded.data.frequencies_hz[test], reach[partner]);
-            let (mode, other, ratio) = (test + 1, partner + 1, own / hertz[partner]);
-            if !self.is_within(near, test) {
-                let words = format!(
-                    "Test mode {mode} has {own} Hz, and its partner, mode {other} of the first model, can have {:.4} to {:.4} Hz within \
-                     the bounds and priors of the parameters: another mode, or another unit?",
-                    near.lower, near.upper
-                );
-                return Some(Concern::doubt(
-                    Check::Reach,
-                    "beyond-reach-",
-                    &[mode],
-                    words,
-                ));
-            }
-            let is_far = ratio.max(1.0 / ratio) > FAR_APART;
-            let words = || {
-                format!(
-                    "Test mode {mode} has {own} Hz, {ratio:.2} times its partner's, mode {other} of the first model, {:.4} Hz.",
-                    hertz[partner]
-                )
-            };
-            is_far.then(|| Concern::remark(Check::Reach, "far-apart-", &[mode], words()))
+            let (mode, own, near) = (test + 1, hertz[test], reach[partner]);
+            let words = format!(
+                "Test mode {mode} has {own} Hz, and its partner, mode {} of the first model, can have {:.4} to {:.4} Hz within the bounds \
+                 and priors of the parameters: another mode, or another unit?",
+                partner + 1,
+                near.lower,
+                near.upper
+            );
+            Concern::doubt(Check::Reach, "beyond-reach-", &[mode], words)
         };
-        self.compared()
-            .zip(first.partners())
-            .filter_map(concern)
-            .collect()
+        Ok(beyond.map(concern).collect())
     }
 
     /// Selected test modes that are not compared, with their largest modal assurance with the modes of this model.
@@ -134,11 +115,10 @@ impl PreparedJob {
         let of_mode = |mode: usize| {
             let close = assurance_of_roots(modes, &self.loaded.measured(&[mode])?.shapes)?;
             let assurance = close.max();
-            let why = match self.within(&close, &[mode], &reach).max() < FLOOR {
+            let why = match self.within(&close, &[mode], &reach).max() {
                 _ if self.refused.contains(&mode) => HARM,
-                _ if assurance < FLOOR => UNLIKE,
-                true => OUT_OF_REACH,
-                false => TAKEN,
+                likely if likely < FLOOR => UNLIKE,
+                _ => TAKEN,
             };
             Ok(LeftOut {
                 mode,
@@ -159,17 +139,17 @@ impl PreparedJob {
     ) -> DMatrix<f64> {
         assurance.map_with_location(|mode, test, close| {
             let is_compared = self.modes.contains(&tests[test]);
-            match is_compared || self.is_within(reach[mode], tests[test]) {
-                true => close,
-                false => 0.0,
+            if is_compared || self.is_within(reach[mode], tests[test]) {
+                close
+            } else {
+                0.0
             }
         })
     }
 
     /// True if a measured frequency (Hz) of a test mode lies within reach, but for its deviation with what digits leave open.
     pub(super) fn is_within(&self, reach: Bounds, mode: usize) -> bool {
-        let noise = self.loaded.deviations(mode).frequency;
-        let noise = FAR * noise.hypot(self.open_part(mode));
+        let noise = FAR * self.noise(mode).frequency;
         let hertz = self.loaded.data.frequencies_hz[mode];
         (reach.lower * (1.0 - noise)..=reach.upper * (1.0 + noise)).contains(&hertz)
     }

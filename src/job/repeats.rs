@@ -1,9 +1,9 @@
 //! Repeated tests: their mean, and the standard deviations that their scatter gives.
 
-use super::{Job, likelihood::FLOOR};
+use super::{Job, pairs::FLOOR};
 use crate::{
     files::{
-        error::{FileError, ensure},
+        error::FileError,
         test_data::{self, Sensor, TestData},
     },
     method::linear_algebra::symmetric_eigen,
@@ -71,11 +71,11 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
         let along = shapes.tr_mul(&(&shapes * vectors.column(count - 1)).normalize());
         for (file, along) in job.test.repeats.iter().zip(&along) {
             let assurance = along.powi(2);
-            ensure(assurance >= FLOOR, || {
+            job.ensure(assurance >= FLOOR, || {
                 let (file, mode) = (file.display(), mode + 1);
-                job.refused(format!(
+                format!(
                     "test.repeats: mode {mode} of {file} is unlike the others: modal assurance {assurance:.2} with their common shape"
-                ))
+                )
             })?;
         }
         for (mut shape, along) in shapes.column_iter_mut().zip(&along) {
@@ -103,21 +103,15 @@ fn mean_of(job: &Job, tests: &[TestData]) -> Result<TestData, FileError> {
 fn matched(job: &Job, tests: &[TestData]) -> Result<Vec<Vec<usize>>, FileError> {
     let (repeats, first) = (&job.test.repeats, &tests[0]);
     let of_test = |(test, file): (&TestData, &PathBuf)| {
-        if let Some(mode) = test.rigid.first() {
-            let (file, mode) = (file.display(), mode + 1);
-            return Err(job.refused(format!(
-                "test.repeats: mode {mode} of {file} has a frequency of 0 Hz; leave rigid-body modes out of repeated tests"
-            )));
-        }
         let key = |own: &Sensor| (own.name.clone(), own.grid, own.direction);
         let place = |own: &Sensor| test.sensors.iter().position(|other| key(other) == key(own));
         let found: Option<Vec<usize>> = first.sensors.iter().map(place).collect();
         let size = |own: &TestData| (own.frequencies_hz.len(), own.sensors.len());
-        let fits = size(test) == size(first) && test.alone == first.alone;
+        let fits = size(test) == size(first) && test.alone == first.alone && test.rigid.is_empty();
         found.filter(|_| fits).ok_or_else(|| {
             let (file, first) = (file.display(), repeats[0].display());
             job.refused(format!(
-                "test.repeats: {file} has not the sensors, modes and shapes of {first}"
+                "test.repeats: {file} has not the sensors, modes and shapes of {first}, or a mode of 0 Hz, which repeated tests leave out"
             ))
         })
     };
@@ -128,10 +122,10 @@ fn matched(job: &Job, tests: &[TestData]) -> Result<Vec<Vec<usize>>, FileError> 
 fn deviation(job: &Job, apart: &DMatrix<f64>, free: usize, what: &str) -> Result<f64, FileError> {
     let (tests, count) = (apart.ncols(), apart.ncols() as f64);
     let variance = apart.norm_squared() / (free as f64 * (count - 1.0) - 2.0);
-    ensure(variance > 0.0 && variance < f64::INFINITY, || {
-        job.refused(format!(
+    job.ensure(variance > 0.0 && variance < f64::INFINITY, || {
+        format!(
             "test.repeats: {tests} tests do not tell the deviations of {what}; name more, or one as test.file with deviations"
-        ))
+        )
     })?;
     Ok((variance / count).sqrt())
 }

@@ -1,6 +1,6 @@
 //! The verdict on a finished correlation.
 
-use crate::method::error_sum::{Errors, ModeError};
+use crate::method::error_sum::Errors;
 use crate::method::inner_loop::Stop;
 use crate::method::outer_loop::Correlation;
 use crate::method::step::Bounds;
@@ -66,6 +66,19 @@ impl End {
     pub fn is_early(self) -> bool {
         matches!(self, Self::Short | Self::Cap | Self::Request)
     }
+
+    /// The end of the paper's loops.
+    pub fn of_loops(run: &Correlation, is_stopped: bool) -> Self {
+        let mut passes = run.passes.iter();
+        let has_stepped = passes.any(|pass| !pass.inner.iterations.is_empty());
+        match run.passes.last() {
+            _ if is_stopped && !run.converged => Self::Request,
+            _ if !has_stepped && !run.converged => Self::Nothing,
+            Some(pass) if pass.inner.stop == Stop::LocalMinimum => Self::LocalMinimum,
+            _ if run.converged => Self::Tolerance,
+            _ => Self::Cap,
+        }
+    }
 }
 
 impl From<Stop> for End {
@@ -97,76 +110,45 @@ pub struct Verdict {
     pub unseen: Vec<usize>,
 }
 
-/// What a verdict judges beside the best factors.
-pub struct Judged<'a> {
-    /// Largest part of a test mode that each parameter had at first.
-    pub seen: &'a [f64],
-    /// Bounds on every parameter's factor.
-    pub ranges: &'a [Option<Bounds>],
-}
-
-impl Judged<'_> {
-    /// The verdict on a correlation that is best at `factors`, where the test modes have the error sum and `errors`.
-    pub(crate) fn verdict(
-        &self,
-        end: End,
-        (error_sum, errors): (f64, &[ModeErrors]),
-        factors: &[f64],
-        is_within: bool,
-    ) -> Verdict {
-        let worst_mode = (0..errors.len())
-            .max_by(|&a, &b| errors[a].square().total_cmp(&errors[b].square()))
-            .unwrap_or(0);
-        let at_end = |e: &usize| self.ranges[*e].is_some_and(|range| is_at_end(range, factors[*e]));
-        let is_unseen = |&e: &usize| {
-            self.seen
-                .get(e)
-                .is_some_and(|seen| factors[e] * seen < UNSEEN_SHARE)
-        };
-        Verdict {
-            end,
-            is_within,
-            error_sum,
-            worst_mode,
-            worst: errors.get(worst_mode).copied().unwrap_or_default(),
-            at_bound: (0..factors.len()).filter(at_end).collect(),
-            unseen: (0..factors.len()).filter(is_unseen).collect(),
-        }
-    }
-
-    /// The verdict on the paper's loops, whose error sum is told in the given measure; `errors` are those of every test mode at its best.
-    pub fn of_loops(
-        &self,
-        run: &Correlation,
-        errors: &[ModeError],
-        measure: fn(&Errors) -> f64,
-        is_stopped: bool,
-    ) -> Verdict {
-        let passes = run.passes.iter();
-        let has_stepped = passes.clone().any(|pass| !pass.inner.iterations.is_empty());
-        let end = match passes.last() {
-            _ if is_stopped && !run.converged => End::Request,
-            _ if !has_stepped && !run.converged => End::Nothing,
-            Some(pass) if pass.inner.stop == Stop::LocalMinimum => End::LocalMinimum,
-            _ if run.converged => End::Tolerance,
-            _ => End::Cap,
-        };
-        let errors: Vec<ModeErrors> = errors.iter().copied().map(ModeErrors::from).collect();
-        let sums = (measure(&run.best_check().errors), &errors[..]);
-        self.verdict(end, sums, &run.best_factors, run.converged)
-    }
-}
-
 /// Error sum that nine modes of the same root mean square errors would have.
 pub(crate) fn sum_of_nine_modes(errors: &Errors) -> f64 {
     3.0 * (errors.frequency_rms() + errors.shape_rms())
 }
 
 impl Verdict {
+    /// The verdict on a correlation that is best at `factors`, within these bounds, where the test modes have the error sum and `errors`.
+    pub fn new(
+        (end, is_within): (End, bool),
+        (error_sum, errors): (f64, &[ModeErrors]),
+        factors: &[f64],
+        ranges: &[Option<Bounds>],
+    ) -> Self {
+        let worst_mode = (0..errors.len())
+            .max_by(|&a, &b| errors[a].square().total_cmp(&errors[b].square()))
+            .unwrap_or(0);
+        let at_end = |e: &usize| ranges[*e].is_some_and(|range| is_at_end(range, factors[*e]));
+        Self {
+            end,
+            is_within,
+            error_sum,
+            worst_mode,
+            worst: errors.get(worst_mode).copied().unwrap_or_default(),
+            at_bound: (0..factors.len()).filter(at_end).collect(),
+            unseen: Vec::new(),
+        }
+    }
+
     /// The verdict on a case of the paper.
     pub fn of_case(result: &CaseResult) -> Self {
-        let (seen, ranges) = (&result.seen, &result.ranges);
-        let (run, errors) = (&result.correlation, &result.best_errors);
-        Judged { seen, ranges }.of_loops(run, errors, Errors::sum, false)
+        let run = &result.correlation;
+        let (end, factors) = (End::of_loops(run, false), &run.best_factors);
+        let errors = result.best_errors.iter().copied();
+        let errors: Vec<ModeErrors> = errors.map(ModeErrors::from).collect();
+        let sums = (run.best_check().errors.sum(), &errors[..]);
+        let is_unseen = |&e: &usize| factors[e] * result.seen[e] < UNSEEN_SHARE;
+        Self {
+            unseen: (0..factors.len()).filter(is_unseen).collect(),
+            ..Self::new((end, run.converged), sums, factors, &result.ranges)
+        }
     }
 }

@@ -5,7 +5,7 @@ use super::report::{facts, places};
 use super::table::{Table, counted};
 use super::views::{KNOW, PARTNERS, trust_table};
 use crate::files::error::FileError;
-use crate::job::localization::{Suspect, by_factor, by_single_fit, unexplained};
+use crate::job::localization::{Suspect, by_single_fit, unexplained};
 use crate::job::{PreparedJob, Trust, mean_deviation};
 use crate::weighted::residuals::residuals;
 use nalgebra::DVector;
@@ -31,7 +31,7 @@ const FIRST: [&str; 6] = [
 /// The errors of the first analysis.
 pub fn check_tables(prepared: &PreparedJob, trust: &Trust) -> Result<Vec<Table>, PresentError> {
     let first = prepared.analyze(&prepared.loaded.ones())?.result()?;
-    let modes = prepared.compared_with(&first, &first, None).modes()?;
+    let modes = prepared.compared_with(&first, &first).modes()?;
     let mut tables = vec![
         trust_table(KNOW, trust),
         Table::of("model", "The model", &facts(prepared)?, &[]),
@@ -52,7 +52,7 @@ pub fn check_tables(prepared: &PreparedJob, trust: &Trust) -> Result<Vec<Table>,
 }
 
 /// Parameters that may be the one that is wrong, by how much of the test's chi-squared each alone can take away, at most
-/// [`MOST_SUSPECTS`]; beside it the paper's unlimited factor of the first iteration. What keeps them from being ranked is a note.
+/// [`MOST_SUSPECTS`]. What keeps them from being ranked is a note.
 pub fn suspects_table(prepared: &PreparedJob) -> Table {
     let title = "Suspects: what one parameter alone explains";
     let (rows, notes) =
@@ -63,22 +63,15 @@ pub fn suspects_table(prepared: &PreparedJob) -> Table {
 fn suspects(prepared: &PreparedJob) -> Result<(Vec<Value>, Vec<String>), FileError> {
     let loaded = &prepared.loaded;
     let names: Vec<&str> = loaded.parameter_names().collect();
-    let (far, first) = prepared.far_from_first()?;
+    let far = prepared.far_from_first()?;
+    let first = far.analyze(&loaded.ones())?;
     let weights = far.weights();
     let suspects = by_single_fit(&first, &weights)?;
-    // The paper's step needs shapes.
-    let slopes = match prepared.alone() {
-        [] => by_factor(
-            &first.model,
-            &loaded.job.correlation.for_modes(far.modes.len()).inner,
-        )?,
-        _ => Vec::new(),
-    };
     let note = format!(
         "Evidence: how far half the weighted squared error, {:.3e} from {} measured numbers, falls when this parameter alone has \
         this factor: the logarithm of a likelihood ratio, in which less than about three says nothing. Where the first leaves much \
         more than half a unit a number, several are wrong, and it need not be among them. Modes are combined from {} of the first \
-        model; far from one, factors are rough where these are few. Paper's factor: unlimited, of the first iteration.",
+        model; far from one, factors are rough where these are few.",
         unexplained(&first, &weights)?,
         residuals(&first, &weights)?.len(),
         first.model.exact.modes.len(),
@@ -97,11 +90,7 @@ fn suspects(prepared: &PreparedJob) -> Result<(Vec<Value>, Vec<String>), FileErr
             counted(rest.len(), "parameter explains", "parameters explain")
         ));
     }
-    let row = |own: &Suspect| {
-        let slope = slopes.iter().find(|slope| slope.parameter == own.parameter);
-        let slope = slope.map(|slope| slope.factor);
-        json!({"parameter": names[own.parameter], "factor": own.factor, "evidence": own.evidence, "paper's_factor": slope})
-    };
+    let row = |own: &Suspect| json!({"parameter": names[own.parameter], "factor": own.factor, "evidence": own.evidence});
     Ok((shown.iter().map(row).collect(), notes))
 }
 

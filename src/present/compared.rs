@@ -82,7 +82,11 @@ pub struct Agreement {
     #[serde(rename = "modal_assurance", serialize_with = "by_rows")]
     pub assurance: DMatrix<f64>,
     /// Cross-orthogonality (4) of shapes of unit generalized mass, where the mass at the sensors is known.
-    #[serde(rename = "cross_orthogonality", serialize_with = "by_rows_if_any")]
+    #[serde(
+        rename = "cross_orthogonality",
+        serialize_with = "by_rows_if_any",
+        skip_serializing_if = "Option::is_none"
+    )]
     pub orthogonality: Option<DMatrix<f64>>,
 }
 

@@ -34,7 +34,7 @@ impl Drawing {
     /// The structure of a job; none where no place is known.
     pub(super) fn of_job(found: &CorrelatedJob) -> Option<Self> {
         let loaded = &found.prepared.loaded;
-        let grids = &loaded.source.geometry.places;
+        let grids = &loaded.source.places;
         let place: BTreeMap<usize, usize> = grids.keys().copied().zip(0..).collect();
         let sensor = |own: &PlacedSensor| {
             let along = if own.direction < 3 {
@@ -72,7 +72,7 @@ fn pieces(found: &CorrelatedJob, place: &BTreeMap<usize, usize>) -> Vec<Piece> {
         .deck
         .iter()
         .flat_map(|(_, deck)| &deck.model.elements);
-    let elements = source.geometry.elements.iter().zip(labels);
+    let elements = source.elements.iter().zip(labels);
     let elements = elements.map(|(grids, element)| {
         let owns = |own: &(usize, &Members)| own.1.elements.binary_search(&element.label).is_ok();
         let owners = source.members.iter().enumerate().filter(owns);
@@ -133,7 +133,7 @@ fn moved(found: &CorrelatedJob) -> Option<[Vec<Vec<[i64; 3]>>; 2]> {
         }))
     };
     let of = |shapes: DMatrix<f64>| {
-        let grids = || source.geometry.places.keys();
+        let grids = || source.places.keys();
         let shapes = shapes.column_iter();
         shapes
             .map(|shape| grids().map(|&grid| at(shape, grid)).collect())

@@ -20,7 +20,7 @@ use crate::weighted::intervals::Withheld;
 use crate::weighted::misfit::{Misfit, mark};
 use crate::weighted::residuals::residuals;
 use crate::weighted::starts::{Minimum, StartEnd};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::Vector3;
 use serde::Serialize;
 use words::{answer, verdict_of_job};
 
@@ -115,6 +115,9 @@ pub struct Report {
     pub errors: Vec<Rms>,
     /// Parameters in the order of the job.
     pub parameters: Vec<Parameter>,
+    /// Parameters with the surest change first, and those that the test hardly sees last.
+    #[serde(skip)]
+    pub surest: Vec<Parameter>,
     /// Test modes, those without shapes last.
     pub modes: Vec<Mode>,
     /// Components of the shapes, mode by mode.
@@ -135,8 +138,6 @@ pub struct Report {
     pub derivatives: Derivatives,
     /// Facts of the model.
     pub model: Vec<Fact>,
-    /// Number of exact analyses that the result took.
-    pub analyses: usize,
     /// Work that they took.
     #[serde(flatten)]
     pub work: Work,
@@ -158,11 +159,14 @@ impl Report {
         let found = &result.found;
         let (prepared, loaded) = (&found.prepared, &found.prepared.loaded);
         let (first, last) = (found.first.result()?, found.last.result()?);
-        let mass = prepared.mass_at_sensors(&found.last);
-        let compared = prepared.compared_with(&first, &last, mass.as_ref());
+        let compared = prepared.compared_with(&first, &last);
         let held = found.held_out()?;
         let errors = compared.errors(&held);
         let parameters = parameters(result);
+        let mut surest = parameters.clone();
+        // Parameters that symmetry makes alike differ by round-off, which the digits of a single-precision number leave out; they stay in order.
+        let key = |own: &Parameter| own.sureness.map_or(1.0, |sureness| -sureness as f32);
+        surest.sort_by(|a, b| key(a).total_cmp(&key(b)));
         let sensors = loaded.placed.iter().map(|sensor| sensor.name.clone());
         let mut readings = compared.readings(&sensors.collect::<Vec<_>>())?;
         let mut modes = compared.modes()?;
@@ -173,7 +177,7 @@ impl Report {
         };
         Ok(Self {
             title: loaded.title.clone(),
-            answer: answer(result, &errors, &by_sureness(&parameters)),
+            answer: answer(result, &errors, &surest),
             is_within: result.verdict.is_within,
             end: result.verdict.end,
             verdict: verdict_of_job(result),
@@ -183,6 +187,7 @@ impl Report {
             drawing: Drawing::of_job(found),
             errors,
             parameters,
+            surest,
             modes,
             readings,
             places: places(loaded),
@@ -193,26 +198,11 @@ impl Report {
             corrected: compared.agreement(&last)?,
             derivatives: Derivatives::at(&found.first)?,
             model: facts(prepared)?,
-            analyses: found.analyses,
             work: found.work,
             command: command.to_owned(),
             job: loaded.job.text.clone(),
         })
     }
-
-    /// Parameters, that with the surest change first, and those that the test hardly sees last.
-    pub fn by_sureness(&self) -> Vec<Parameter> {
-        by_sureness(&self.parameters)
-    }
-}
-
-/// Parameters, that with the surest change first, and those that the test hardly sees last. Parameters that symmetry makes alike differ by
-/// round-off, which the digits of a single-precision number leave out; they stay in order.
-fn by_sureness(parameters: &[Parameter]) -> Vec<Parameter> {
-    let mut rows = parameters.to_vec();
-    let key = |own: &Parameter| own.sureness.map_or(1.0, |sureness| -sureness as f32);
-    rows.sort_by(|a, b| key(a).total_cmp(&key(b)));
-    rows
 }
 
 impl PreparedJob {
@@ -221,14 +211,13 @@ impl PreparedJob {
         &'a self,
         first: &'a ExactResult,
         last: &'a ExactResult,
-        mass: Option<&'a DMatrix<f64>>,
     ) -> Compared<'a> {
         Compared {
             test: &self.test,
             numbers: self.compared().map(|mode| mode + 1).collect(),
             first,
             last,
-            mass,
+            mass: None,
         }
     }
 }
@@ -390,10 +379,6 @@ pub fn facts(prepared: &PreparedJob) -> Result<Vec<Fact>, Error> {
             format!("the lowest {taken}, beside {rigid} rigid-body modes"),
         ),
         ("mass along x, y, z", write(&source.mass)),
-        (
-            "center of gravity",
-            source.mass_center.iter().map(write).collect(),
-        ),
         ("parameters without bounds", some(&unbounded)),
         (
             "sensors that are not used",

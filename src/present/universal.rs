@@ -66,7 +66,7 @@ fn frame(loaded: &LoadedJob) -> String {
     let places = loaded
         .placed
         .iter()
-        .map(|sensor| (sensor.grid, sensor.place));
+        .map(|own| (own.grid, loaded.source.places.get(&own.grid).copied()));
     let places: BTreeMap<usize, Option<Vector3<f64>>> = places.collect();
     let mut text = format!(
         "    -1\n  2420\n{:10}\nNONE\n{}Global\n",

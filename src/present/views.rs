@@ -2,7 +2,7 @@
 
 use super::report::Report;
 use super::table::{Table, counted, separated};
-use crate::job::concern::{Check, Grade};
+use crate::job::concern::Grade;
 use crate::job::{Concern, Trust};
 
 /// Columns of the factors that a terminal has room for.
@@ -44,14 +44,8 @@ impl Report {
             Trust::new(all.cloned().collect())
         };
         let is_unanswered = |own: &Concern| own.identifier.starts_with("not-checked-");
-        let is_in_rows = |own: &Concern| {
-            let name = &own.identifier[..];
-            is_unanswered(own)
-                || own.check == Check::HeldOut
-                || ["at-bound", "mostly-prior"].contains(&name)
-        };
         let doubts = of(&|own| own.grade <= Grade::LeftOut);
-        let remarks = of(&|own| own.grade > Grade::LeftOut && !is_in_rows(own));
+        let remarks = of(&|own| own.grade > Grade::LeftOut && !is_unanswered(own));
         let unanswered = self.concerns.all().iter().filter(|own| is_unanswered(own));
         let unanswered = unanswered.map(|own| own.words.trim_start_matches(UNCHECKED));
         let unanswered: Vec<&str> = unanswered.map(|own| own.trim_end_matches('.')).collect();
@@ -63,7 +57,7 @@ impl Report {
         let mut tables = vec![
             trust_table("What stands against it", &doubts),
             answer,
-            Table::of("factors", SUREST, &self.by_sureness(), &FACTORS),
+            Table::of("factors", SUREST, &self.surest, &FACTORS),
             Table::of("modes", PARTNERS, &self.modes, &MODES),
         ];
         tables.push(self.minima_table());
@@ -77,7 +71,7 @@ impl Report {
             trust_table(KNOW, &self.concerns),
             Table::of("modes", PARTNERS, &self.modes, &[]),
             Table::of("errors", "Root mean square errors", &self.errors, &[]),
-            Table::of("factors", SUREST, &self.by_sureness(), &[]),
+            Table::of("factors", SUREST, &self.surest, &[]),
         ];
         tables.push(self.minima_table());
         tables.extend([

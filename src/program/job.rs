@@ -4,7 +4,7 @@ use super::example::Example;
 use super::output::{OutputArguments, note, tell, write, write_files};
 use clap::Args;
 use corfem::files::error::FileError;
-use corfem::job::{FILES, JobResult, LoadedJob, TEMPLATE, TEST_TEMPLATE, Trust, run};
+use corfem::job::{FILES, LoadedJob, PreparedJob, TEMPLATE, TEST_TEMPLATE, Trust, run};
 use corfem::present::check::check_tables;
 use corfem::present::deck::not_read;
 use corfem::present::page::report_page;
@@ -109,7 +109,17 @@ pub fn check_job(arguments: &CheckArguments, quiet: bool) -> Result<bool, Presen
     tell(quiet, "looking at the job");
     let prepared = LoadedJob::new(job_file(&arguments.job)?)?.prepare()?;
     let trust = Trust::before(&prepared)?.accepting(&arguments.accept)?;
-    let tables = check_tables(&prepared, &trust)?;
+    looked_at(&prepared, &trust, arguments, quiet)
+}
+
+/// Reports a job before its first step; true if no doubt stands.
+fn looked_at(
+    prepared: &PreparedJob,
+    trust: &Trust,
+    arguments: &CheckArguments,
+    quiet: bool,
+) -> Result<bool, PresentError> {
+    let tables = check_tables(prepared, trust)?;
     tell(quiet, "");
     let document = json!({ "concerns": trust, "checks": trust.answers(false), "tables": tables });
     arguments
@@ -120,10 +130,23 @@ pub fn check_job(arguments: &CheckArguments, quiet: bool) -> Result<bool, Presen
 
 /// Corrects the model of a job and writes the report; true if it is within tolerance. Where a doubt leaves nothing to compare, it is a check.
 pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, PresentError> {
-    let Some(result) = corrected(arguments, quiet)? else {
+    let stop = stopped_by_signals();
+    let mut loaded = LoadedJob::new(job_file(&arguments.of.job)?)?;
+    let compare = &mut loaded.job.compare;
+    compare.starts = arguments.starts.map(NonZeroUsize::get).or(compare.starts);
+    compare.seed = arguments.seed.unwrap_or(compare.seed);
+    for card in loaded.source.deck.iter().flat_map(|(_, deck)| &deck.unread) {
+        note(format_args!("corfem: {}: {}", loaded.title, not_read(card)));
+    }
+    let prepared = loaded.prepare()?;
+    let trust = Trust::before(&prepared)?.accepting(&arguments.of.accept)?;
+    if prepared.is_without_pairs() && trust.has_doubt() {
         note("corfem: no mode of the model is like a test mode, so nothing is corrected");
-        return check_job(&arguments.of, quiet);
-    };
+        return looked_at(&prepared, &trust, &arguments.of, quiet);
+    }
+    let go_on = || !stop.load(Ordering::SeqCst);
+    let result = run(&prepared, &trust, |words| tell(quiet, words), go_on)?;
+    tell(quiet, "");
     let report = Report::new(&result, &command(arguments))?;
     let document = || json::document(json::OWN_UNITS, &report);
     arguments
@@ -134,7 +157,7 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         let loaded = &result.found.prepared.loaded;
         let texts = [
             report_page(&report)?,
-            separated(&report.by_sureness()),
+            separated(&report.surest),
             separated(&report.readings),
             universal(&report, loaded),
             separated(&report.modes),
@@ -148,27 +171,6 @@ pub fn correlate(arguments: &CorrelateArguments, quiet: bool) -> Result<bool, Pr
         note("corfem: stopped by request; the best factors so far are given");
     }
     Ok(result.verdict.is_within && !result.trust.stands_against() && !result.found.is_interrupted)
-}
-
-/// Reads, prepares and runs a job; nothing where no test mode has a partner and a doubt says why.
-fn corrected(arguments: &CorrelateArguments, quiet: bool) -> Result<Option<JobResult>, FileError> {
-    let stop = stopped_by_signals();
-    let mut loaded = LoadedJob::new(job_file(&arguments.of.job)?)?;
-    let compare = &mut loaded.job.compare;
-    compare.starts = arguments.starts.map(NonZeroUsize::get).or(compare.starts);
-    compare.seed = arguments.seed.unwrap_or(compare.seed);
-    for card in loaded.source.deck.iter().flat_map(|(_, deck)| &deck.unread) {
-        note(format_args!("corfem: {}: {}", loaded.title, not_read(card)));
-    }
-    let prepared = loaded.prepare()?;
-    let trust = Trust::before(&prepared)?.accepting(&arguments.of.accept)?;
-    if prepared.is_without_pairs() && trust.has_doubt() {
-        return Ok(None);
-    }
-    let go_on = || !stop.load(Ordering::SeqCst);
-    let finished = run(&prepared, &trust, |words| tell(quiet, words), go_on);
-    tell(quiet, "");
-    finished.map(Some)
 }
 
 /// A flag that the first request to stop sets; the second ends the program.

@@ -1,7 +1,7 @@
 //! The worked jobs of `tests/jobs`, what is known of them, and jobs of matrices.
 
 use crate::prelude::*;
-use corfem::job::LoadedJob;
+use corfem::job::{CorrelatedJob, LoadedJob};
 
 /// Stiffness of every story of the real building over that of the model, from the ground up.
 pub const STORIES: [f64; 10] = [0.70, 1.0, 1.2, 0.9, 1.0, 0.8, 1.1, 1.0, 0.85, 1.0];
@@ -334,4 +334,12 @@ pub fn rods_with(old: &str, new: &str) -> Files {
 /// The report on what came of a job.
 pub fn report_of(found: &JobResult) -> Report {
     Report::new(found, "corfem correlate job.toml").unwrap()
+}
+
+/// Exact analyses of the weighted steps that found the factors, the first among them.
+pub fn analyses(found: &CorrelatedJob) -> usize {
+    let History::GaussNewton(Some(steps)) = &found.history else {
+        panic!("by weighted steps")
+    };
+    steps.best.analyses
 }

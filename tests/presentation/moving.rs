@@ -39,7 +39,7 @@ fn every_view_tells_the_same_factors_and_errors() {
 #[test]
 fn factors_stand_in_the_order_of_how_sure_their_changes_are() {
     for name in ["box", "garteur", "wing"] {
-        let rows = report_of(worked(name)).by_sureness();
+        let rows = report_of(worked(name)).surest;
         let key = |e: usize| rows[e].sureness.map_or(1.0, |own| -own as f32);
         assert!((1..rows.len()).all(|e| key(e - 1) <= key(e)), "{name}");
     }

@@ -8,7 +8,6 @@ use corfem::job::LeftOut;
 use corfem::present::report::facts;
 use std::sync::Arc;
 
-const A: &str = "elements = [1]";
 const COMPARE: &str = "[compare]";
 
 /// The files of a job one behind the other.
@@ -29,12 +28,11 @@ fn of_job(text: &str, _: &[String]) -> Result<Value, String> {
         let trust = Trust::before(&job)?;
         run(&job, |_| {}, || true)?;
         let mass = facts(&job)?.into_iter();
-        let mass =
-            mass.filter(|own| own.fact.starts_with("mass") || own.fact.starts_with("center"));
-        let mass = mass.map(|own| own.value).collect_vec();
+        let mass = mass.filter(|own| own.fact.starts_with("mass"));
+        let mass: String = mass.map(|own| own.value).collect();
         Ok(json!({
             "motions": job.loaded.source.motions.len(),
-            "mass": mass.join(" at "),
+            "mass": mass,
             "unused": about(&trust, "not-used"),
         }))
     });
@@ -80,28 +78,6 @@ fn a_job_that_is_not_there_or_has_no_parameters_is_refused() {
         missing,
         format!("cannot read {}: no such file", path.display())
     );
-}
-
-/// The narrower of the bounds on the factor and of those on the size of every element holds.
-#[test]
-fn bounds_on_sizes_are_bounds_on_the_factor() {
-    let deck = with(rods(), "model.bdf", "PROD,2,2,.1", "PROD,2,2,.2");
-    let rule = "elements = [1, 2]\nlower = 0.5\nupper = 1.9\nlower_size = 0.06\nupper_size = 0.3";
-    let files = with(
-        with(deck, "job.toml", A, rule),
-        "job.toml",
-        "elements = [\"2-3\"]",
-        "elements = [3]",
-    );
-    let range = prepared(&files).loaded.source.whole.ranges()[0].unwrap();
-    // Of areas 0.1 and 0.2: at least 0.06/0.1, at most 0.3/0.2.
-    assert!(
-        (range.lower - 0.6).abs() < ROUND_OFF && (range.upper - 1.5).abs() < ROUND_OFF,
-        "{range:?}"
-    );
-    let narrow = with(files, "job.toml", "lower_size = 0.06", "lower_size = 0.01");
-    let range = prepared(&narrow).loaded.source.whole.ranges()[0].unwrap();
-    assert_eq!(range.lower, 0.5);
 }
 
 #[test]

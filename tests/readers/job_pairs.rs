@@ -83,10 +83,10 @@ fn wrong(draws: &mut Draws, sensors: usize, jobs: usize) -> [usize; 3] {
             .shapes()
             .tr_mul(&(&mass * real.shapes()))
             .map(|part| part * part);
-        let right = pair_optimally(&whole, 0.0).unwrap();
+        let right = pair_optimally(&whole).unwrap();
         let seen = |shapes: &DMatrix<f64>| shapes.select_rows(&rows);
         let close = modal_assurance(&seen(first.shapes()), &seen(real.shapes())).unwrap();
-        let by_shape = pair_optimally(&close, 0.0).unwrap();
+        let by_shape = pair_optimally(&close).unwrap();
         let analyzed = job.analyze(&vec![1.0; parameters]).unwrap();
         let partners = &analyzed.result().unwrap().pairing.analysis_mode;
         for (place, &test) in job.modes.iter().enumerate() {
@@ -287,9 +287,9 @@ fn evidence_is_what_the_suspect_alone_takes_away() {
         let (culprit, ones) = (draws.below(parameters), vec![1.0; parameters]);
         let mut truth = ones.clone();
         truth[culprit] = draws.between(0.3, 0.8).powf([-1.0, 1.0][draws.below(2)]);
-        let (far, first) = prepared(&noisy_net(&model, &truth, seed))
-            .far_from_first()
-            .unwrap();
+        let far = prepared(&noisy_net(&model, &truth, seed));
+        let far = far.far_from_first().unwrap();
+        let first = far.analyze(&ones).unwrap();
         let whole = unexplained(&first, &far.weights()).unwrap();
         let suspects = by_single_fit(&first, &far.weights()).unwrap();
         for own in &suspects {
@@ -327,7 +327,10 @@ fn of_units(nets: u64) -> [usize; 2] {
                     .iter_mut()
                     .for_each(|own| *own *= known.0)
             });
-            let (trust, name) = (trust_in(&prepared(&files)), format!("near {}: ", known.1));
+            let (trust, name) = (
+                trust_in(&prepared(&files)),
+                format!("near {} times the model's: ", known.1),
+            );
             let is_accused =
                 |own: &Concern| own.grade == Grade::Doubt && own.check == Check::Readings;
             named += usize::from(trust.all().iter().any(|own| own.words.contains(&name)));

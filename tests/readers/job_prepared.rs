@@ -37,31 +37,6 @@ fn a_model_without_a_vibration_has_no_modes_to_take() {
     );
 }
 
-/// The mass of the paired modes alone: what other modes are taken changes nothing but their own rows.
-#[test]
-fn cross_orthogonality_does_not_depend_on_how_many_modes_are_taken() {
-    let first = |count: usize| {
-        let modes = format!("analysis_modes = {count}");
-        let prepared = prepared(&with(building(), "job.toml", "analysis_modes = 10", &modes));
-        let model = prepared.analyze(&[1.0; 10]).unwrap();
-        let mass = prepared.mass_at_sensors(&model).unwrap();
-        let shapes = model.model().exact().modes.shapes();
-        let lowest = shapes.columns(0, 5).into_owned();
-        let own = lowest.tr_mul(&(&mass * &lowest));
-        assert!(
-            (own - eye(5)).amax() < ROUND_OFF,
-            "the paired modes are orthonormal with it"
-        );
-        let first = model.result().unwrap();
-        let compared = prepared.compared_with(&first, &first, Some(&mass));
-        let found = compared.agreement(&first).unwrap();
-        found.orthogonality.unwrap().rows(0, 5).into_owned()
-    };
-    let (few, all) = (first(5), first(10));
-    assert!((&few - &all).amax() < ROUND_OFF, "{few} {all}");
-    assert!(few.diagonal().iter().all(|own| own.abs() > 0.9), "{few}");
-}
-
 /// A model is compared with the test modes as they were measured, of another scale and of no other sign.
 #[test]
 fn test_modes_keep_the_sense_in_which_they_were_measured() {

@@ -37,7 +37,7 @@ fn frequencies_without_shapes_count_as_frequencies_and_nowhere_else() {
     let found = result(&without_shapes(&[2, 4]));
     let (exact, loaded) = (found.found.first.result().unwrap(), &found.found.prepared);
     assert_eq!(loaded.modes, [0, 2, 4]);
-    assert_eq!(loaded.alone(), [(1, 1), (3, 3)]);
+    assert_eq!(loaded.loaded.alone, [(1, 1), (3, 3)]);
     // By hand: the frequencies of all five modes, the shapes of three.
     let hertz = exact.modes.frequencies_hz();
     let squares =
@@ -103,7 +103,7 @@ fn the_job_may_name_the_partners_of_frequencies() {
         with(files.clone(), "job.toml", "file = \"test.csv\"", &entry)
     };
     let loaded = prepared(&named("[0, 6, 0, 4, 0]"));
-    assert_eq!(loaded.alone(), [(1, 5), (3, 3)]);
+    assert_eq!(loaded.loaded.alone, [(1, 5), (3, 3)]);
     for (partners, expected) in [
         ("[2, 4]", "test.partners: 2 given for 5 test modes"),
         (
@@ -121,7 +121,7 @@ fn the_job_may_name_the_partners_of_frequencies() {
         ),
         (
             "[0, 3, 0, 4, 0]",
-            "mode 3 of the model is the partner of test mode 2, which has a frequency alone, and by its shape of test mode 3",
+            "test.partners: mode 3 of the model, a partner of a frequency alone, is by its shape that of test mode 3",
         ),
     ] {
         let error = said(&named(partners));

@@ -129,20 +129,15 @@ fn no_call_around_the_method_ends_in_a_panic() {
     no_panic! {
         with_noise_by_mode(&test, &[], 1);
     }
-    for (closeness, floor) in [
-        (empty.clone(), 0.5),
-        (DMatrix::zeros(0, 3), 0.5),
-        (dmatrix![nan], 0.5),
-        (flat.clone(), nan),
-        (DMatrix::from_element(3, 3, 1e308), 0.5),
+    for closeness in [
+        empty.clone(),
+        DMatrix::zeros(0, 3),
+        dmatrix![nan],
+        flat.clone(),
+        DMatrix::from_element(3, 3, 1e308),
     ] {
         no_panic! {
-            pair_optimally(&closeness, floor);
-        }
-    }
-    for shapes in [empty.clone(), flat.clone(), DMatrix::zeros(3, 2)] {
-        no_panic! {
-            Ok::<_, Error>(mass_by_modes(&shapes, 0.0));
+            pair_optimally(&closeness);
         }
     }
     no_panic! {

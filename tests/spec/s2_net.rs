@@ -448,7 +448,7 @@ fn weight(mode: usize) -> ModeWeight {
 
 /// The pairing of all modes at once, as a job's.
 fn pair_all(cross: &DMatrix<f64>) -> Result<Pairing, Error> {
-    let partners = pair_optimally(&cross.component_mul(cross), 0.0)?;
+    let partners = pair_optimally(&cross.component_mul(cross))?;
     let modes = partners.into_iter().flatten().collect_vec();
     let signs = modes.iter().enumerate();
     let signs = signs.map(|(test, &mode)| 1.0_f64.copysign(cross[(mode, test)]));

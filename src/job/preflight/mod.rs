@@ -5,221 +5,105 @@
 //! explains the shapes best is named, if it does so well enough (`readings.rs` has the equations). Frequencies tell modes of like shapes
 //! apart there, so a factor of all of them is looked for first and taken out.
 
-mod change;
 mod frequencies;
 mod readings;
 
-pub use change::Change;
 pub use frequencies::FACTORS;
 pub use readings::SeenModes;
 
 use crate::{
-    job::concern::{Check, Concern, NONE},
-    method::{
-        error::Error,
-        linear_algebra::{symmetric_eigen, symmetric_part},
-        modes::Modes,
-        sorting::pair_modes,
-    },
-    sparse::{cosines, modal_assurance},
+    job::concern::{Check, Concern},
+    method::{error::Error, modes::Modes},
+    sparse::modal_assurance,
     weighted::{misfit::most_by_noise, noise::Noise},
 };
-use frequencies::{common_factor, exchanged};
-use nalgebra::DMatrix;
-use readings::{LEAST, explain};
+use frequencies::in_units;
+use readings::Known;
 
 /// Modal assurance of two test modes from which they are nearly one shape. Two modes of the box, whose masses differ
 /// several hundredfold, have 0.75 with noise of 1 %, and a mode measured twice has 0.99. It does not depend on the
 /// order and signs of the points, so that a mistake in these does not look like a mode measured twice.
 pub const NEARLY_SAME: f64 = 0.9;
-/// Singular value of the test shapes, of unit length, below which the points do not distinguish them: orthogonal shapes have one.
-pub const LEAST_SINGULAR: f64 = 0.3;
-
-/// Reason why test modes have no partners that could be compared.
-pub(in crate::job) const FEWER: &str = "the model has fewer modes than the test";
-
-/// Names of the sensors, their places from one where they have none, and numbers of test modes.
-#[derive(Debug, Clone, Default)]
-pub struct Names {
-    /// The sensors' names.
-    pub sensors: Vec<String>,
-    /// Places of the test modes in the test's file.
-    pub modes: Vec<usize>,
-    /// The test's file.
-    pub file: String,
-}
-
-impl Names {
-    fn sensor(&self, place: usize) -> String {
-        self.sensors
-            .get(place)
-            .cloned()
-            .unwrap_or_else(|| (place + 1).to_string())
-    }
-
-    /// The number of a test mode in the test's file.
-    fn mode(&self, place: usize) -> usize {
-        self.modes.get(place).map_or(place, |mode| *mode) + 1
-    }
-}
-
-/// True if noise alone, in all but one of a thousand tests, makes one mode differ so much from itself as two test modes do of a modal
-/// assurance $m$. A reading of either differs from the other's by noise of both, so that with the first shape $a$, of unit largest component,
-/// and sums of the squares of both deviations
+/// The places of test modes of these numbers that were not measured twice, and what is said of each near copy of an earlier one: a doubt
+/// where a mode was measured twice, and else a remark, as few sensors may see two modes alike. At one sensor all do.
+///
+/// Two test modes of a modal assurance $m$ are one where noise alone, in all but one of a thousand tests, makes it differ so much from itself.
+/// A reading of either differs from the other's by noise of both, so that with the first shape $a$, of unit largest component, and sums of
+/// the squares of both deviations
 ///
 /// $$ \chi^2 = \frac{\lvert a \rvert^2 (1 - m)}{\sigma_v^2} + \frac{\ln^2 (f_2/f_1)}{\sigma_f^2} $$
 ///
-/// has as many degrees of freedom as there are sensors: one less for the scale of the shapes, one more for the frequency. None if noise
-/// makes one mode of shapes at right angles as well.
-fn is_measured_twice(
-    test: &Modes,
-    [a, b]: [usize; 2],
-    assurance: f64,
-    noise: [Noise; 2],
-) -> Result<Option<bool>, Error> {
-    let hertz = test.frequencies_hz();
-    let frequency_ratio = hertz[b] / hertz[a];
-    let sum = |of: fn(&Noise) -> f64| noise.iter().map(|own| of(own).powi(2)).sum::<f64>();
-    let shape = test.shapes.column(a);
-    let size = shape.norm_squared() / shape.amax().powi(2);
-    let unlike = size / sum(|own| own.shape);
-    let chi_squared =
-        unlike * (1.0 - assurance) + frequency_ratio.ln().powi(2) / sum(|own| own.frequency);
-    let most = most_by_noise(shape.len() as f64)?;
-    Ok((unlike > most).then_some(chi_squared <= most))
-}
-
-/// The places of test modes without near copies of earlier ones; of modes that were measured twice; and what is said of each copy: a doubt
-/// where a mode was measured twice, and else a remark, as few sensors may see two modes alike. At one sensor all do.
-fn distinct_shapes(
-    test: &Modes,
-    noise: &[Noise],
-    names: &Names,
-) -> Result<([Vec<usize>; 2], Vec<Concern>), Error> {
-    let (mut apart, mut twice, mut concerns) = (Vec::<usize>::new(), Vec::new(), Vec::new());
-    if test.shapes.nrows() == 1 {
-        return Ok(([(0..test.len()).collect(), twice], concerns));
+/// has as many degrees of freedom as there are sensors: one less for the scale of the shapes, one more for the frequency. Noise must not
+/// make one mode of shapes at right angles as well.
+///
+/// # Errors
+/// The errors of the comparison of shapes.
+pub fn measured_once(
+    (test, noise): (&Modes, &[Noise]),
+    numbers: &[usize],
+) -> Result<(Vec<usize>, Vec<Concern>), Error> {
+    let (check, sensors) = (Check::ModesMeasuredTwice, test.shapes.nrows());
+    if sensors == 1 {
+        let alike = Concern::not_checked(check, ONE);
+        return Ok(((0..test.len()).collect(), vec![alike]));
     }
     let assurance = modal_assurance(&test.shapes, &test.shapes)?;
-    let own = |mode: usize| noise.get(mode).copied().unwrap_or(LEAST);
+    let (mut once, mut concerns) = (Vec::<usize>::new(), Vec::new());
+    let (hertz, most) = (test.frequencies_hz(), most_by_noise(sensors as f64)?);
     for b in 0..test.len() {
-        let Some(&a) = apart.iter().find(|&&a| assurance[(a, b)] >= NEARLY_SAME) else {
-            apart.push(b);
-            continue;
-        };
-        let (both, assurance) = ([a, b], assurance[(a, b)]);
-        let modes = both.map(|mode| names.mode(mode));
-        let words = format!(
-            "Test modes {} and {} are nearly the same shape, modal assurance {assurance:.3}",
-            modes[0], modes[1]
-        );
-        let check = Check::ModesMeasuredTwice;
-        concerns.push(
-            match is_measured_twice(test, both, assurance, both.map(own))? {
-                None => Concern::not_checked(check, "by these deviations all shapes are alike"),
-                Some(true) => {
-                    twice.push(b);
-                    Concern::doubt(check, "same-", &modes, words + "; measured twice?")
-                }
-                Some(false) => Concern::remark(check, "same-", &modes, words + "."),
-            },
-        );
+        if let Some(&a) = once.iter().find(|&&a| assurance[(a, b)] >= NEARLY_SAME) {
+            let assurance = assurance[(a, b)];
+            let sum = |of: fn(&Noise) -> f64| of(&noise[a]).powi(2) + of(&noise[b]).powi(2);
+            let shape = test.shapes.column(a);
+            let size = shape.norm_squared() / shape.amax().powi(2);
+            let unlike = size / sum(|own| own.shape);
+            let apart = (hertz[b] / hertz[a]).ln().powi(2) / sum(|own| own.frequency);
+            let modes = [numbers[a], numbers[b]];
+            let words = format!(
+                "Test modes {} and {} are nearly the same shape, modal assurance {assurance:.3}",
+                modes[0], modes[1]
+            );
+            if unlike > most && unlike * (1.0 - assurance) + apart <= most {
+                let words = words + "; measured twice?";
+                concerns.push(Concern::doubt(check, "same-", &modes, words));
+                continue;
+            }
+            concerns.push(Concern::remark(check, "same-", &modes, words + "."));
+        }
+        once.push(b);
     }
-    Ok(([apart, twice], concerns))
+    Ok((once, concerns))
 }
 
-/// Checks a test, with the deviations of every mode or none, against a model's modes at its sensors; no condensed model is needed, so structures
-/// may hang free.
+/// Reason why one sensor says nothing of shapes.
+const ONE: &str = "at one sensor all shapes are alike";
+
+/// Checks a test of this file, of modes measured once by sensors of these names, with the deviations of each, against a model's modes at its sensors; no condensed model is needed,
+/// so structures may hang free.
 ///
 /// # Errors
 /// The errors of the comparison of shapes.
 pub fn preflight_at_sensors(
     seen: &SeenModes,
     (test, noise): (&Modes, &[Noise]),
-    names: &Names,
+    (sensors, file): (&[String], &str),
 ) -> Result<Vec<Concern>, Error> {
-    // A mode measured twice has no second partner. A sensor that drowns all others makes shapes alike, but not frequencies.
-    let ([_, twice], _) = distinct_shapes(test, noise, names)?;
-    let once: Vec<usize> = (0..test.len())
-        .filter(|mode| !twice.contains(mode))
-        .collect();
-    let of_once: Vec<Noise> = once
-        .iter()
-        .filter_map(|&mode| noise.get(mode).copied())
-        .collect();
-    // At one sensor all shapes are alike, and say nothing of partners.
-    let is_one = test.shapes.nrows() == 1;
-    let is_paired = !is_one && once.len() <= seen.modes.len();
-    let mut test = test.clone();
-    let mut concerns: Vec<Concern> = Vec::new();
-    let mut told = explain(seen, (&test.select(&once), &of_once))?;
-    if is_paired
-        && let Some((factor, doubt)) = common_factor(seen, (&test.select(&once), &of_once))?
-    {
-        let mut other = test.clone();
-        other.omega_squared /= factor.powi(2);
-        let in_units = explain(seen, (&other.select(&once), &of_once))?;
-        // A mistake in the readings may explain as much.
-        if in_units.least <= told.least {
-            (test, told) = (other, in_units);
-            concerns.push(doubt);
-        }
+    if sensors.len() == 1 {
+        let unchecked = [Check::CommonFactor, Check::Readings];
+        return Ok(unchecked
+            .map(|check| Concern::not_checked(check, ONE))
+            .into());
     }
-    let suspected = told.mistake;
-    if let Some((change, _)) = &suspected {
-        test.shapes = change.of(&test.shapes);
-    }
-    concerns.extend(
-        told.silent
-            .map(|reason| Concern::not_checked(Check::Readings, reason)),
-    );
-    let alike = "at one sensor all shapes are alike";
-    let ([places, _], copies) = distinct_shapes(&test, noise, names)?;
-    concerns.extend(is_one.then(|| Concern::not_checked(Check::ModesMeasuredTwice, alike)));
-    concerns.extend(copies);
-    if is_paired {
-        let own = test.select(&once);
-        let judge = |partners: &[usize]| {
-            exchanged(
-                &own.frequencies_hz(),
-                &seen.modes.select(partners).frequencies_hz(),
-                |mode| names.mode(once[mode]),
-            )
-        };
-        // Shapes of two modes may be one at the sensors: what the likely partners do not say too is their mistake.
-        let is_told = told.partners.is_none_or(|likely| judge(&likely).is_some());
-        concerns.extend(
-            judge(&pair_modes(&modal_assurance(&seen.modes.shapes, &own.shapes)?)?.analysis_mode)
-                .filter(|_| is_told),
-        );
-    } else {
-        let reason = if is_one { alike } else { FEWER };
-        concerns.extend(
-            [Check::CommonFactor, Check::OrderOfFrequencies]
-                .map(|check| Concern::not_checked(check, reason)),
-        );
-    }
-    concerns.extend(suspected.map(|(change, evidence)| change.concern(evidence, names)));
-    let distinct = test.select(&places).shapes;
-    if distinct.ncols() > distinct.nrows() {
-        concerns.extend(too_many_modes(&distinct)?);
-    }
-    Ok(concerns)
-}
-
-/// A remark on test modes whose shapes the points do not distinguish.
-fn too_many_modes(shapes: &DMatrix<f64>) -> Result<Option<Concern>, Error> {
-    let (points, modes) = shapes.shape();
-    let (squares, _) = symmetric_eigen(
-        "overlap of test modes",
-        &symmetric_part(&cosines(shapes, shapes)?),
-    )?;
-    let smallest = squares[0].max(0.0).sqrt();
-    let is_distinct = |square: &&f64| **square >= LEAST_SINGULAR.powi(2);
-    let distinct = squares.iter().filter(is_distinct).count();
-    let words = format!(
-        "{modes} test modes at {points} points: only {distinct} are told apart, the smallest singular value is {smallest:.3}."
-    );
-    Ok((distinct < modes)
-        .then(|| Concern::remark(Check::NumberOfModes, "too-many-modes", &NONE, words)))
+    // Frequencies tell modes of like shapes apart, in the right units.
+    let (frequencies, doubt) = in_units(seen, (test, noise))?;
+    let known = Known::new(seen, noise);
+    let shapes = seen.modes.shapes.clone();
+    let model = known.as_ref().and_then(|known| known.seen_as(shapes));
+    let unchecked = |reason| Some(Concern::not_checked(Check::Readings, reason));
+    let mistake = match model {
+        _ if sensors.len() == 2 => unchecked("two sensors tell no mistake of one"),
+        None => unchecked("the sensors do not tell the modes of the model apart"),
+        Some(model) => model.mistake(&test.shapes, &frequencies, (sensors, file))?,
+    };
+    Ok(doubt.into_iter().chain(mistake).collect())
 }
