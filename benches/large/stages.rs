@@ -10,7 +10,7 @@ use corfem::method::modes::Modes;
 use corfem::method::sorting::pair_modes;
 use corfem::method::structure::Material;
 use corfem::sparse::factorization::Factor;
-use corfem::sparse::{BasisSize, SensorModel, SparseMatrix};
+use corfem::sparse::{SensorModel, SparseMatrix};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
@@ -109,28 +109,19 @@ pub fn of(wing: &Wing) -> (Stages, Analyzed) {
     let test = Modes::new(right.omega_squared().clone(), seen).expect("a test");
     let modes = || whole.modes(&ones, MODES).expect("modes").vibrations;
     let modes = stages.time("20 modes of the whole model (counted)", modes);
-    let analyze = |residual_vectors| {
-        let size = BasisSize {
-            modes: MODES,
-            residual_vectors,
-        };
+    let analyze = || {
         let model = whole.analyze(
             &ones,
             &sensors,
             &test,
             corfem::sparse::Pair::by(|of| pair_modes(of.cross)),
-            size,
+            MODES,
         );
         model.expect("an analysis")
     };
-    let model = stages.time("analysis with all shares", || analyze(0));
-    let with_residual = stages.time("analysis with residual vectors", || analyze(1));
+    let model = stages.time("analysis with all shares", analyze);
     stages.time("derivatives by definition", || {
         model.error_changes(model.exact()).expect("derivatives")
-    });
-    stages.time("derivatives with residual vectors", || {
-        let exact = with_residual.at(&ones).expect("the exact modes");
-        with_residual.error_changes(&exact).expect("derivatives")
     });
     let analyzed = Analyzed {
         wing,

@@ -100,9 +100,10 @@ pub fn of_bodies(finding: &BodyFinding) -> Concern {
                  Places of the rows, or model.rigid_bodies, decide."
             );
             Concern::new(
-                match is_sure {
-                    true => Grade::NotChecked,
-                    false => Grade::Doubt,
+                if *is_sure {
+                    Grade::NotChecked
+                } else {
+                    Grade::Doubt
                 },
                 check,
                 "free-by-digits",

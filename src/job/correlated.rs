@@ -7,7 +7,7 @@ use crate::{
         error::Error,
         outer_loop::{Correlation, Pass, correlate},
     },
-    sparse::{Deflections, ModeWeight, Work},
+    sparse::{ModeWeight, Place, Work},
     weighted::{
         comparison::Comparison,
         gauss_newton::{LOWER, WeightedCorrelation, gauss_newton, gauss_newton_below},
@@ -18,14 +18,18 @@ use crate::{
         starts::{WeightedHistory, from_several_starts},
     },
 };
+use nalgebra::DMatrix;
 
 /// Most ends of one run that a lower place is gone to from.
 const MOST_LEFT: usize = 5;
-/// Most rows of a structure of which a lower place is looked for by analyses themselves: one takes a millisecond, as a step in a basis, which
-/// lacks what no deflection at the end shows.
+/// Most rows of a structure that is followed about an end by analyses themselves: one takes a millisecond, as a step in a basis, which lacks
+/// what no deflection at the end shows.
 const MOST_ROWS: usize = 160;
 /// Most deflections of parameters, beside two of every mode, in the basis in which a lower place is looked for: exact steps decide.
 const MOST_DEFLECTIONS: usize = 30;
+
+/// Comparisons at factors about a place.
+type Followed<'a> = Box<dyn Fn(&[f64]) -> Result<Comparison, Error> + 'a>;
 
 /// The way in which the factors were found.
 #[derive(Debug, Clone)]
@@ -168,7 +172,8 @@ impl PreparedJob {
             if is_over {
                 return Err(FileError::Interrupted);
             }
-            let model = self.analyze_near(factors, near.as_ref())?;
+            let model =
+                self.analyze_near(factors, near.as_ref(), self.pair(Method::GaussNewton))?;
             // The next search begins from these shapes.
             near = model
                 .model
@@ -222,6 +227,27 @@ impl PreparedJob {
         }
     }
 
+    /// Comparisons about one at some factors, of a small structure by its analyses, of a larger one in a basis with these deflections, with
+    /// slopes corrected to an exact Jacobian where there is one.
+    ///
+    /// # Errors
+    /// Errors of the basis.
+    pub(super) fn about<'a>(
+        &'a self,
+        (model, factors): (&Comparison, &[f64]),
+        exact: Option<(&DMatrix<f64>, &[ModeWeight])>,
+        deflections: impl FnOnce(&Place) -> Result<DMatrix<f64>, Error>,
+    ) -> Result<Followed<'a>, Error> {
+        if self.loaded.source.whole.dof_count() <= MOST_ROWS {
+            let pair = model.model.pair.clone();
+            return Ok(Box::new(move |at: &[f64]| {
+                self.analyze_near(at, None, pair.clone())
+            }));
+        }
+        let basis = model.model.in_basis(None, deflections)?;
+        Ok(Box::new(model.within(basis, factors, exact)?))
+    }
+
     /// The steps that end in the last of the lower places that an end is left for ([`lower_place`]), and whether nothing lower is known of: of
     /// a minimum that noise does not explain nobody knows.
     fn lowered(
@@ -241,16 +267,12 @@ impl PreparedJob {
         for _ in 0..MOST_LEFT {
             // A minimum that noise does not explain is not the truth's.
             let is_doubted = !Misfit::of(&run.last, &weights, &source.priors, &[])?.is_by_noise();
-            let size = 2 * self.modes.len() + ranges.len().min(MOST_DEFLECTIONS);
-            let model = &run.last.model;
-            let basis = run.last.with_model(model.in_basis(Deflections::All(size))?);
-            let follow = &mut |at: &[f64]| {
-                if source.whole.dof_count() <= MOST_ROWS {
-                    self.analyze(at)
-                } else {
-                    basis.about(&run.factors)(at)
-                }
-            };
+            let size = self.modes.len() + ranges.len().min(MOST_DEFLECTIONS) / 2;
+            let partners = run.last.partners();
+            let analyze = self.about((&run.last, &run.factors), None, |whole| {
+                whole.drawn(None, &partners, (size, None))
+            })?;
+            let follow = &mut |at: &[f64]| analyze(at);
             let Some(place) =
                 lower_place(&run, follow, &ranges, &weights, &settings, seed, is_doubted)?
             else {

@@ -11,7 +11,7 @@ use crate::{
         error::FileError,
     },
     method::step::Bounds,
-    sparse::{WholeShare, brackets::Excess},
+    sparse::WholeShare,
     weighted::noise::Noise,
 };
 use nalgebra::Vector3;
@@ -171,24 +171,23 @@ impl LoadedJob {
             if parts.is_empty() {
                 continue;
             }
-            let excess = Excess::beside(what, first)?;
             for (name, part) in parts {
                 let found = [
                     (
                         "negative-",
-                        excess.of(0.0, &[(1.0, part)]),
+                        whole.is_negative(what, first, &[(1.0, part)]),
                         "has negative energy, more than its digits explain",
                     ),
                     (
                         "not-part-",
-                        excess.of(1.0, &[(-1.0, part)]),
+                        whole.is_negative(what, first, &[(1.0, first), (-1.0, part)]),
                         "is not part of the first model's, which without it has negative energy",
                     ),
                 ];
                 for (kind, found, what) in found {
                     all.push(match found {
-                        Ok(None) => continue,
-                        Ok(Some(_)) => {
+                        Ok(false) => continue,
+                        Ok(true) => {
                             let words = format!("The matrix of parameter \"{name}\" {what}.");
                             Concern::doubt(check, kind, &[name], words)
                         }

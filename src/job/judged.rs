@@ -8,17 +8,21 @@ use super::{
 };
 use crate::{
     files::error::FileError,
-    method::step::Bounds,
-    sparse::{Deflections, ModeWeight},
+    method::{error::Error, step::Bounds},
+    sparse::ModeWeight,
     weighted::{
         comparison::ModeErrors,
         gauss_newton::WeightedStop,
         identifiability::{Identifiability, identifiability},
         intervals::{Withheld, intervals},
         misfit::{Misfit, Prediction},
-        residuals::jacobian,
+        residuals::{jacobian, pair_by_residuals},
     },
 };
+
+/// Most deflections, beside one of every mode, that are drawn for intervals in a basis: a basis of twice as many moves no end of ten modes
+/// and fifty parameters by a tenth of a deviation.
+const MOST_DRAWN: usize = 50;
 
 /// The result of a job.
 #[derive(Debug, Clone)]
@@ -131,11 +135,24 @@ impl CorrelatedJob {
         widening: f64,
     ) -> Result<Vec<Result<Bounds, Withheld>>, FileError> {
         let (prepared, model) = (&self.prepared, &self.last);
-        let size = Deflections::All(6 * prepared.modes.len() + 30);
-        let basis = model.model.in_basis(size)?;
-        let basis = model.in_basis(basis, &jacobian(model, weights)?, weights)?;
+        let exact = jacobian(model, weights)?;
+        let priors = &prepared.loaded.source.priors;
+        let seen = identifiability(&(&exact / widening), priors)?;
+        let root = seen.covariance.cholesky();
+        let root = root
+            .ok_or(Error::no_convergence("covariance of the factors"))?
+            .l();
+        let modes = model.partners();
+        let count = modes.len() + self.factors.len().min(MOST_DRAWN);
+        // Whatever the pairs: where the rule of pairing changes its mind the residuals would jump.
+        let mut model = model.clone();
+        model.model.pair = pair_by_residuals(&prepared.test, weights);
+        let analyze =
+            prepared.about((&model, &self.factors), Some((&exact, weights)), |whole| {
+                whole.drawn(Some(&root), &modes, (count, None))
+            })?;
         Ok(intervals(
-            &basis.about(&self.factors),
+            &analyze,
             &self.factors,
             &prepared.loaded.source.whole.ranges(),
             weights,

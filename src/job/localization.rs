@@ -1,9 +1,8 @@
 //! Which parameter is wrong, by single fits.
 
-use super::pairs::pair_cheaply;
 use crate::{
     method::{error::Error, modes::Modes, sorting::Pairing},
-    sparse::{Deflections, ModeWeight},
+    sparse::{ModeWeight, pair_cheaply},
     weighted::{
         comparison::Comparison,
         residuals::{residuals, residuals_of},
@@ -51,12 +50,13 @@ pub fn by_single_fit(
 ) -> Result<Vec<Suspect>, Error> {
     let first = unexplained(comparison, weights)?;
     let best = |parameter: usize| {
-        let model = comparison.model.in_basis(Deflections::Own(parameter))?;
+        let model = comparison.model.in_basis(Some(parameter), |whole| {
+            whole.leading(parameter, usize::MAX)
+        })?;
         // A factor that leaves no modes of vibration cannot fit.
         let objective = |log: f64| {
-            let least = model
-                .followed(&[10.0_f64.powf(log)])
-                .and_then(|(model, _)| least(&model.exact.modes, comparison, weights));
+            let modes = model.modes(&[10.0_f64.powf(log)]);
+            let least = modes.and_then(|modes| least(&modes, comparison, weights));
             least.unwrap_or(f64::INFINITY)
         };
         let better = |best: (f64, f64), log: f64| {
@@ -80,7 +80,7 @@ pub fn by_single_fit(
             evidence: first - lowest,
         })
     };
-    let count = comparison.model.shares.len();
+    let count = comparison.model.moves.ncols();
     let mut suspects = (0..count).map(best).collect::<Result<Vec<_>, Error>>()?;
     // Parameters that symmetry makes alike differ by round-off, which the digits of a single-precision number leave out; they stay in order.
     suspects.sort_by(|a, b| (b.evidence as f32).total_cmp(&(a.evidence as f32)));

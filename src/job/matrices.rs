@@ -3,12 +3,12 @@
 use super::{
     Job, ParameterRule, Scales,
     bodies::{explained, with_as_many},
-    model::{GridLayout, Members, ModelSource, Part},
+    model::{self, Members, ModelSource, Part},
 };
 use crate::{
     files::{
-        deck::number::{LARGEST, real},
-        error::{FileError, ensure, is_not},
+        deck::number::LARGEST,
+        error::{FileError, is_not},
         matrices::{self, Digits, Label, LabeledMatrix},
         test_data::{self, cells, row_name, separator},
         text::decoded,
@@ -24,33 +24,22 @@ use std::{collections::BTreeMap, path::Path};
 
 /// The model of the matrices in these files.
 pub fn from_matrices(job: &Job, stiffness: &Path, mass: &Path) -> Result<ModelSource, FileError> {
-    let stiffness = matrix(job, stiffness, "model.stiffness", None)?;
-    let (count, own) = (stiffness.matrix.rows(), stiffness.rows.as_ref());
-    let own: Option<Vec<_>> = own.map(|own| own.iter().map(degree_of_freedom).collect());
+    let (stiffness, own) = matrix(job, (stiffness, "model.stiffness"), None)?;
+    let count = stiffness.matrix.rows();
     let (labels, places, rounding) = match &job.model.rows {
         Some(file) => read_rows(job, &job.beside(file))?,
         // Frequencies alone need no names of rows.
-        None => (own.clone().unwrap_or_default(), BTreeMap::new(), 0.0),
+        None => (own.clone(), BTreeMap::new(), 0.0),
     };
     let (rows, is_named) = (labels.len(), !labels.is_empty() || job.model.rows.is_some());
-    ensure(!is_named || rows == count, || {
-        job.refused(format!(
-            "model.rows has {rows} rows, but the stiffness {count}"
-        ))
+    job.ensure(!is_named || rows == count, || {
+        format!("model.rows has {rows} rows, but the stiffness {count}")
     })?;
-    ensure(own.is_none_or(|own| own == labels), || {
-        job.refused("model.rows is not in the order of the stiffness, which names its rows")
-    })?;
-    let mut row_of = BTreeMap::new();
-    for (row, label) in labels.iter().enumerate() {
-        let first = row_of.insert(*label, row).unwrap_or(row);
-        ensure(first == row, || {
-            let (first, row) = (first + 1, row + 1);
-            job.refused(format!(
-                "rows {first} and {row} of the matrices have the same grid and direction"
-            ))
-        })?;
-    }
+    job.ensure(
+        own.is_empty() || own == labels,
+        || "model.rows is not in the order of the stiffness, which names its rows",
+    )?;
+    let row_of = rows_of(job, "model.rows", &labels)?;
     let mass = on_rows(job, (mass, "model.mass"), &row_of, count)?;
     let parts = matrix_parts(job, &row_of, [&stiffness.matrix, &mass.matrix])?;
     let placed = |dof: &StructuralDof| Some((*places.get(&dof.grid)?, dof.direction));
@@ -61,66 +50,46 @@ pub fn from_matrices(job: &Job, stiffness: &Path, mass: &Path) -> Result<ModelSo
             .map(|rows| Places::new(&rows, rounding)),
         ..Support::default()
     };
-    let label = |own: &StructuralDof| Label {
-        grid: own.grid,
-        component: own.direction + 1,
-    };
-    let by_rows = labels.iter().map(label).collect();
     let rows = (0..).map(|row| vec![(row, 1.0)]);
-    let geometry = GridLayout {
-        places,
-        elements: Vec::new(),
-    };
-    let layout = (geometry, labels.into_iter().zip(rows).collect());
+    let layout = (places, labels.into_iter().zip(rows).collect());
     let whole = (stiffness.matrix, mass.matrix, support);
-    let mut source = ModelSource::new(job, whole, parts, layout, None)?;
-    source.labels = stiffness.rows.unwrap_or(by_rows);
-    source.dmig = [stiffness.dmig, mass.dmig];
-    Ok(source)
+    Ok(ModelSource {
+        labels: stiffness.rows.unwrap_or_default(),
+        dmig: [stiffness.dmig, mass.dmig],
+        ..ModelSource::new(job, whole, parts, layout, None)?
+    })
 }
 
 /// Parameters by the job's rules of a model of this stiffness and mass, whose labels have these rows.
-fn matrix_parts<'a>(
-    job: &'a Job,
+fn matrix_parts(
+    job: &Job,
     row_of: &BTreeMap<StructuralDof, usize>,
     [stiffness, mass]: [&SparseMatrix; 2],
-) -> Result<Vec<(&'a ParameterRule, Part)>, FileError> {
-    let part = |rule: &'a ParameterRule| {
+) -> Result<Vec<Part>, FileError> {
+    let part = |rule: &ParameterRule| {
         let entry = format!("parameter \"{}\"", rule.name);
         let of_deck =
-            rule.elements.len() + rule.properties.len() + rule.materials.len() + rule.masses.len();
-        let (file, scales, at) = match (&rule.matrix, &rule.stiffness, &rule.mass, rule.at) {
-            _ if of_deck > 0 || rule.each => (None, Scales::default(), None),
-            (Some(file), None, None, None) => (Some(file), rule.scales, None),
-            (None, file, None, at @ Some(_)) => (file.as_ref(), Scales::Stiffness, at),
-            (None, None, file, at @ Some(_)) => (file.as_ref(), Scales::Mass, at),
-            _ => (None, Scales::default(), None),
+            rule.elements.len() + rule.masses.len() + rule.properties.len() + rule.materials.len();
+        let is_of_deck = of_deck > 0 || rule.each;
+        let (file, scales) = match (&rule.matrix, &rule.stiffness, &rule.mass, rule.at) {
+            (Some(file), None, None, None) if !is_of_deck => (file, rule.scales),
+            (None, Some(file), None, Some(_)) if !is_of_deck => (file, Scales::Stiffness),
+            (None, None, Some(file), Some(_)) if !is_of_deck => (file, Scales::Mass),
+            _ => {
+                return Err(job.refused(format!(
+                    "{entry} needs a matrix, or a whole stiffness or mass with the factor at that it has there, and no entry of a deck"
+                )));
+            }
         };
-        let file = file.ok_or_else(|| {
-            job.refused(format!(
-                "{entry} needs a matrix, or a whole stiffness or mass with the factor at that it has there, and no entry of a deck"
-            ))
-        })?;
         let mut matrix = on_rows(job, (file, &entry), row_of, stiffness.rows())?.matrix;
-        if let Some(at) = at {
-            let first = match scales {
-                Scales::Stiffness => stiffness,
-                Scales::Mass => mass,
-            };
+        let (first, share): (_, fn(SparseMatrix) -> WholeShare) = match scales {
+            Scales::Stiffness => (stiffness, WholeShare::Stiffness),
+            Scales::Mass => (mass, WholeShare::Mass),
+        };
+        if let Some(at) = rule.at {
             matrix = part_of(job, &rule.name, (first, &matrix), at)?;
         }
-        Ok((
-            rule,
-            Part {
-                name: rule.name.clone(),
-                share: match scales {
-                    Scales::Stiffness => WholeShare::Stiffness(matrix),
-                    Scales::Mass => WholeShare::Mass(matrix),
-                },
-                members: Members::default(),
-                sizes: Vec::new(),
-            },
-        ))
+        rule.part(job, (rule.name.clone(), share(matrix)), Members::default())
     };
     job.parameters.iter().map(part).collect()
 }
@@ -133,10 +102,8 @@ fn part_of(
     (first, second): (&SparseMatrix, &SparseMatrix),
     at: f64,
 ) -> Result<SparseMatrix, FileError> {
-    ensure(at != 1.0 && at > 0.0 && at.is_finite(), || {
-        job.refused(format!(
-            "parameter \"{name}\": at = {at} must be positive and another factor than one"
-        ))
+    job.ensure(at != 1.0 && at > 0.0 && at.is_finite(), || {
+        format!("parameter \"{name}\": at = {at} must be positive and another factor than one")
     })?;
     let mut both: BTreeMap<(usize, usize), [f64; 2]> = BTreeMap::new();
     for (of, matrix) in [first, second].into_iter().enumerate() {
@@ -153,11 +120,11 @@ fn part_of(
         is_told.then_some((row, column, (two - one) / (at - 1.0)))
     };
     let entries: Vec<_> = both.iter().filter_map(of_place).collect();
-    ensure(!entries.is_empty(), || {
-        job.refused(format!(
+    job.ensure(!entries.is_empty(), || {
+        format!(
             "parameter \"{name}\": the digits of the files do not tell the matrix at {at} from the model's; write more digits, or take \
              another factor"
-        ))
+        )
     })?;
     Ok(
         SparseMatrix::new("part of a parameter", first.rows(), first.rows(), entries)?
@@ -175,13 +142,13 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
         path: "modes".into(),
         ..Job::default()
     };
-    let LabeledMatrix {
-        rows,
-        matrix: stiffness,
-        ..
-    } = matrix(&job, file, "--stiffness", None)?;
-    let dof: Vec<_> = rows.iter().flatten().map(degree_of_freedom).collect();
-    let row_of = (0..).zip(&dof).map(|(row, dof)| (*dof, row)).collect();
+    let (
+        LabeledMatrix {
+            matrix: stiffness, ..
+        },
+        dof,
+    ) = matrix(&job, (file, "--stiffness"), None)?;
+    let row_of = rows_of(&job, "--stiffness", &dof)?;
     let mass = on_rows(&job, (mass, "--mass"), &row_of, stiffness.rows())?.matrix;
     let most = most.min(stiffness.rows());
     let name = |row: usize| row_name(row, &dof);
@@ -189,11 +156,7 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
     let found = with_as_many(most, |most| whole.modes(&[], most));
     let (_, found) =
         found.map_err(|error| explained(error, file.display(), whole.half_unit(), name))?;
-    let Modes {
-        omega_squared,
-        shapes,
-    } = found.vibrations;
-    let modes = Modes::signed(omega_squared, shapes);
+    let modes = Modes::signed(found.vibrations.omega_squared, found.vibrations.shapes);
     let (stiffness, mass) = whole.at(&[])?;
     let open = open_parts([&stiffness, &mass], &modes)?;
     let lowest = modes.frequencies_hz().first().copied();
@@ -211,11 +174,8 @@ pub fn matrix_modes(file: &Path, mass: &Path, most: usize) -> Result<WholeModes,
 
 /// Number of motions that have mass, if every row with an entry of it is one by itself: a definite mass.
 fn motions_with_mass(mass: &SparseMatrix) -> Option<usize> {
-    let mut rows: Vec<usize> = mass
-        .entries()
-        .filter(|own| own.2 != 0.0)
-        .map(|own| own.0)
-        .collect();
+    let rows = mass.entries().filter(|own| own.2 != 0.0);
+    let mut rows: Vec<usize> = rows.map(|own| own.0).collect();
     rows.dedup();
     let own = mass
         .at_rows(&rows)
@@ -225,71 +185,62 @@ fn motions_with_mass(mass: &SparseMatrix) -> Option<usize> {
     is_definite.then_some(rows.len())
 }
 
-/// The degree of freedom of a label: component 0 of a scalar point is its first.
-fn degree_of_freedom(label: &Label) -> StructuralDof {
-    StructuralDof {
-        grid: label.grid,
-        direction: label.component.saturating_sub(1),
+/// The row of every degree of freedom.
+fn rows_of(
+    job: &Job,
+    entry: &str,
+    dof: &[StructuralDof],
+) -> Result<BTreeMap<StructuralDof, usize>, FileError> {
+    let mut row_of = BTreeMap::new();
+    for (row, own) in dof.iter().enumerate() {
+        let first = row_of.insert(*own, row).unwrap_or(row);
+        job.ensure(first == row, || {
+            let (first, row) = (first + 1, row + 1);
+            format!("{entry}: rows {first} and {row} have the same grid and direction")
+        })?;
     }
+    Ok(row_of)
 }
 
-/// A square matrix of a file, with the same labels for rows and columns, or of so many rows without any; `#` in the name chooses one of
-/// several.
+/// A square matrix of a file, with the same labels for rows and columns, or of so many rows without any, and the degrees of freedom of its
+/// labels, of which component 0 of a scalar point is its first; `#` in the name chooses one of several.
 fn matrix(
     job: &Job,
-    file: &Path,
-    entry: &str,
+    (file, entry): (&Path, &str),
     count: Option<usize>,
-) -> Result<LabeledMatrix, FileError> {
+) -> Result<(LabeledMatrix, Vec<StructuralDof>), FileError> {
     let text = file.to_string_lossy();
-    let is_file = |file: &str| job.beside(Path::new(file)).is_file();
     // A number sign may be part of the file's own name.
     let (file, wanted) = match text.rsplit_once('#') {
-        Some((file, name)) if !is_file(&text) => (file, Some(name)),
-        Some((file, _)) if is_file(file) => {
-            return Err(job.refused(format!(
-                "{text} may be a file or a matrix of {file}; rename one of them"
-            )));
-        }
-        _ => (&*text, None),
+        Some((whole, name)) if !job.beside(file).is_file() => (Path::new(whole), Some(name)),
+        _ => (file, None),
     };
-    let file = job.beside(Path::new(file));
+    let file = job.beside(file);
     let bytes = job.bytes(&file, entry)?;
     let found = matrices::read(&file.display().to_string(), &bytes, wanted)?;
-    let is_huge = |value: f64| value.abs() > LARGEST;
-    if found.matrix.entries().any(|entry| is_huge(entry.2)) {
-        let has_huge = |line: &str| {
-            line.split([' ', '\t', ','])
-                .any(|word| real(word).is_some_and(is_huge))
-        };
-        let line = decoded(&bytes).lines().position(has_huge).unwrap_or(0) + 1;
-        return Err(FileError::line(
-            &file.display().to_string(),
-            line,
-            format!("a number is beyond {LARGEST:e}, and its square is none; look at its exponent"),
-        ));
+    let huge = found.matrix.entries().find(|own| own.2.abs() > LARGEST);
+    if let Some((row, column, value)) = huge {
+        return Err(job.refused(format!(
+            "{text}: {value:e} in row {}, column {} is beyond {LARGEST:e}, and its square is no number; look at its exponent",
+            row + 1,
+            column + 1
+        )));
     }
-    ensure(found.columns == found.rows, || {
-        job.refused(format!("{text}: rows and columns have different names"))
+    job.ensure(found.columns == found.rows, || {
+        format!("{text}: rows and columns have different names")
     })?;
     let [rows, columns] = [found.matrix.rows(), found.matrix.columns()];
     let wanted = count.filter(|_| found.rows.is_none()).unwrap_or(rows);
-    ensure([rows, columns] == [wanted; 2], || {
-        job.refused(format!(
-            "{text} ({entry}) is {rows} x {columns}; it must be {wanted} x {wanted}"
-        ))
+    job.ensure([rows, columns] == [wanted; 2], || {
+        format!("{text} ({entry}) is {rows} x {columns}; it must be {wanted} x {wanted}")
     })?;
-    // Labels ascend, so that two of one degree of freedom are neighbors.
-    for pair in found.rows.as_deref().unwrap_or_default().windows(2) {
-        let [one, other] = [0, 1].map(|own| degree_of_freedom(&pair[own]));
-        ensure(one != other, || {
-            let grid = one.grid;
-            job.refused(format!(
-                "{text}: components 0 and 1 of grid {grid} are one degree of freedom, and the matrix has both"
-            ))
-        })?;
-    }
-    Ok(found)
+    let dof = |label: &Label| StructuralDof {
+        grid: label.grid,
+        direction: label.component.saturating_sub(1),
+    };
+    let dof: Vec<_> = found.rows.iter().flatten().map(dof).collect();
+    rows_of(job, &text, &dof)?;
+    Ok((found, dof))
 }
 
 /// A matrix of a file; if it names its rows and columns, they are put in the order of the stiffness.
@@ -299,22 +250,22 @@ fn on_rows(
     row_of: &BTreeMap<StructuralDof, usize>,
     count: usize,
 ) -> Result<LabeledMatrix, FileError> {
-    let found = matrix(job, file, entry, Some(count))?;
-    let (Some(labels), matrix) = (&found.rows, &found.matrix) else {
+    let (found, dof) = matrix(job, (file, entry), Some(count))?;
+    if dof.is_empty() {
         return Ok(found);
-    };
-    for label in labels {
-        ensure(row_of.contains_key(&degree_of_freedom(label)), || {
-            let (file, Label { grid, component }) = (file.display(), label);
-            job.refused(format!(
-                "{file}: the stiffness has no row of grid {grid}, component {component}"
-            ))
+    }
+    for own in &dof {
+        job.ensure(row_of.contains_key(own), || {
+            let (file, component) = (file.display(), own.direction + 1);
+            format!(
+                "{file}: the stiffness has no row of grid {}, component {component}",
+                own.grid
+            )
         })?;
     }
-    let place = |row: usize| row_of[&degree_of_freedom(&labels[row])];
-    let entries = matrix
-        .entries()
-        .map(|(row, column, value)| (place(row), place(column), value));
+    let place = |row: usize| row_of[&dof[row]];
+    let entries = found.matrix.entries();
+    let entries = entries.map(|(row, column, value)| (place(row), place(column), value));
     let all = SparseMatrix::new(
         "matrix by labels",
         row_of.len(),
@@ -322,13 +273,13 @@ fn on_rows(
         entries.collect(),
     )?;
     Ok(LabeledMatrix {
-        matrix: all.with_half_unit(matrix.half_unit()),
+        matrix: all.with_half_unit(found.matrix.half_unit()),
         ..found
     })
 }
 
 /// Labels and places of a model's rows, and the largest part of a coordinate by which it is rounded.
-type Rows = (Vec<StructuralDof>, BTreeMap<usize, Vector3<f64>>, f64);
+type Rows = (Vec<StructuralDof>, model::Places, f64);
 
 /// Reads a table `grid,direction,x,y,z`.
 fn read_rows(job: &Job, file: &Path) -> Result<Rows, FileError> {

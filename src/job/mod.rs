@@ -13,7 +13,7 @@ mod matrices;
 mod model;
 mod next_measurement;
 #[doc(hidden)]
-pub mod pairs;
+mod pairs;
 #[doc(hidden)]
 pub mod preflight;
 mod repeats;

@@ -142,14 +142,14 @@ impl PreparedJob {
         let size = source.whole.dof_count();
         let sensors = SparseMatrix::new("sensors", places.len(), size, entries)?;
         let [basis, unseen] = self.first.read_by(&sensors, count)?;
-        let beyond = self.first.slopes_beyond(&sensors, count, modes)?;
+        let slopes = self.first.slopes(&sensors, modes)?;
         let is_seen = |row: &usize| unseen.row(*row).amax() <= NOTHING * basis.amax();
         ranked((0..places.len()).filter(is_seen).map(|row| {
             let of_row = |all: &DMatrix<f64>| all.rows(row, 1).into_owned();
-            let beyond = beyond.iter().map(of_row).collect();
+            let slopes = slopes.iter().map(of_row).collect();
             Ok((
                 places[row],
-                by(&comparison.with_sensor(of_row(&basis), beyond))?,
+                by(&comparison.with_sensor(of_row(&basis), slopes))?,
             ))
         }))
     }

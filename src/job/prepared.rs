@@ -10,7 +10,7 @@ use super::{
 use crate::{
     files::error::FileError,
     method::{error::Error, modes::Modes},
-    sparse::{Deflections, ModeWeight, Place, SensorModel, parts_of},
+    sparse::{ModeWeight, Pair, Place, SensorModel, moves_of},
     weighted::{
         close_modes::{assurance_of_roots, indistinct_groups},
         comparison::{Comparison, LoneFrequency},
@@ -20,9 +20,6 @@ use crate::{
 };
 use nalgebra::DMatrix;
 use std::sync::Arc;
-
-/// Residual vectors a parameter: more add less than the lowest mode left out.
-const RESIDUAL_VECTORS: usize = 4;
 
 /// Deviation of a frequency, relative, by which roots that no solver tells apart are equal: two in a hundred million of a root.
 const EQUAL: f64 = 3e-9;
@@ -90,7 +87,7 @@ impl PreparedJob {
     fn leave_out(&mut self) -> Result<(), FileError> {
         let exact = &self.first.modes(self.analysis_modes)?;
         let assurance = assurance_of_roots(exact, &self.test.shapes)?;
-        let parts = parts_of(&self.first.shares(exact.len()), exact);
+        let parts = moves_of(self.first.shares(), exact);
         let costs = self.frequencies(&self.modes).costs(exact, &parts);
         let partners = pairs(&assurance, &exact.shapes, Some(&costs), FLOOR)?;
         let mut kept = Vec::new();
@@ -173,7 +170,7 @@ impl PreparedJob {
         let (exact, test) = (&model.model.exact.modes, self.loaded.measured(&all)?);
         let assurance = assurance_of_roots(exact, &test.shapes)?;
         let within = self.within(&assurance, &all, &self.reach(model));
-        let costs = self.frequencies(&all).costs(exact, &model.model.parts());
+        let costs = self.frequencies(&all).costs(exact, &model.model.moves);
         let partners = pairs(&within, &exact.shapes, Some(&costs), FLOOR)?;
         let count = self.modes.len();
         let joined = all.iter().zip(&partners).skip(count);
@@ -293,38 +290,40 @@ impl PreparedJob {
     /// # Errors
     /// The errors of [`crate::sparse::WholeModel::analyze`].
     pub fn analyze(&self, factors: &[f64]) -> Result<Comparison, Error> {
-        self.analyze_near(factors, None)
+        self.analyze_near(factors, None, self.pair(self.loaded.job.compare.method))
     }
 
-    /// The modal model at factors, its modes sought from shapes `near` them.
+    /// The modal model at factors, its modes sought from shapes `near` them, and paired by a rule.
     pub(super) fn analyze_near(
         &self,
         factors: &[f64],
         near: Option<&DMatrix<f64>>,
+        pair: Pair,
     ) -> Result<Comparison, Error> {
         let (whole, modes) = (&self.loaded.source.whole, self.analysis_modes);
         // Exact slopes want more modes than the basis has.
         let most = modes.max(2 * self.test.len());
-        let place = match (factors == self.loaded.ones(), &self.comparison) {
-            (true, Some(first)) => return Ok(first.clone()),
-            (true, None) => Arc::clone(&self.first),
-            _ => whole.exactly(factors, &self.loaded.sensors, modes..=most, near)?,
+        let place = match factors == self.loaded.ones() {
+            true => Arc::clone(&self.first),
+            false => whole.exactly(factors, &self.loaded.sensors, modes..=most, near)?,
         };
-        self.beside(place, self.loaded.job.compare.method)
+        self.paired_by(place, self.loaded.job.compare.method, pair)
     }
 
     /// An analysis beside the test, as a method compares them.
     pub(super) fn beside(&self, place: Arc<Place>, method: Method) -> Result<Comparison, Error> {
-        let is_paper = method == Method::Paper;
-        let model = SensorModel::of_whole(
-            place,
-            self.analysis_modes,
-            &self.test,
-            self.pair(method),
-            // Weighted steps have deflections of their own.
-            Deflections::Each(if is_paper { RESIDUAL_VECTORS } else { 0 }),
-        )?;
-        if is_paper {
+        self.paired_by(place, method, self.pair(method))
+    }
+
+    /// The same with another rule of pairing.
+    fn paired_by(
+        &self,
+        place: Arc<Place>,
+        method: Method,
+        pair: Pair,
+    ) -> Result<Comparison, Error> {
+        let model = SensorModel::of_whole(place, self.analysis_modes, &self.test, pair)?;
+        if method == Method::Paper {
             let one = |_| Noise {
                 frequency: 1.0,
                 shape: 1.0,

@@ -66,9 +66,10 @@ impl PreparedJob {
                 // The state of an analysis has factors on what it began with; its place knows them all.
                 let now = model.model.whole().map_or(1.0, |place| place.factors[e]);
                 // Round-off may leave a negative part.
-                let part = share.part(mode, exact.omega_squared[mode]).max(0.0);
-                let [least, most] =
-                    &mut ends[usize::from(matches!(share, ParameterMatrix::Mass(_)))];
+                let is_mass = matches!(share, ParameterMatrix::Mass(_));
+                let part = model.model.moves[(mode, e)] * if is_mass { -1.0 } else { 1.0 };
+                let part = part.max(0.0);
+                let [least, most] = &mut ends[usize::from(is_mass)];
                 *least += part * (range.lower / now - 1.0);
                 *most += part * (range.upper / now - 1.0);
             }

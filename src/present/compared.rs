@@ -6,7 +6,7 @@ use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::modes::Modes;
 use crate::method::sorting::cross_orthogonality;
-use crate::sparse::{ParameterMatrix, modal_assurance};
+use crate::sparse::modal_assurance;
 use crate::weighted::close_modes::turned;
 use crate::weighted::comparison::{Comparison, ExactResult};
 use nalgebra::DMatrix;
@@ -125,15 +125,7 @@ impl Derivatives {
     /// [`Error::CoalescingModes`] and [`Error::NotAVibration`] where a thousandth of a parameter is too much.
     pub fn at(comparison: &Comparison) -> Result<Self, Error> {
         let (first, partners) = (comparison.model(), comparison.partners());
-        let frequency = DMatrix::from_fn(first.shares.len(), partners.len(), |e, j| {
-            let i = partners[j];
-            match &first.shares[e] {
-                ParameterMatrix::Stiffness(share) => {
-                    share[(i, i)] / (2.0 * first.exact.modes.omega_squared[i])
-                }
-                ParameterMatrix::Mass(share) => -0.5 * share[(i, i)],
-            }
-        });
+        let frequency = 0.5 * first.moves.select_rows(&partners).transpose();
         let changes = comparison.error_changes()?;
         let error_sum = changes.iter().map(|change| change / DERIVATIVE_STEP);
         Ok(Self {

@@ -3,7 +3,9 @@
 //! [`crate::method`] says what is computed; here it is computed fast. Each fast form equals the plain one by a property of the
 //! specification.
 
+mod assignment;
 mod assurance;
+mod basis;
 mod checks;
 #[doc(hidden)]
 pub mod elements;
@@ -16,16 +18,18 @@ mod modes;
 mod ordering;
 mod place;
 pub mod random;
-mod residual_vectors;
 mod sensor_model;
 mod share;
 pub(crate) mod visibility;
 pub mod whole_modes;
 mod whole_model;
 
+pub(crate) use assignment::pair_cheaply;
+pub use assignment::pair_optimally;
 pub(crate) use assurance::cosines;
 #[doc(hidden)]
 pub use assurance::modal_assurance;
+pub(crate) use basis::Basis;
 #[doc(hidden)]
 pub(crate) use checks::{
     finite, gram, inverse_of_positive, places_above, solve_lower, solve_positive, take_product,
@@ -38,11 +42,11 @@ pub use mass_changes::normalize_with_mass;
 pub(crate) use matrix::HalfUnit;
 pub use matrix::SparseMatrix;
 pub use modes::{CountedModes, FINITE, MOST_DENSE_ROWS};
-pub(crate) use place::{Deflections, Place, is_held};
+pub(crate) use place::{Place, is_held};
 pub use sensor_model::{Candidates, ModeWeight, Pair, SensorModel};
-pub(crate) use sensor_model::{check_weights, is_one_root, parts_of};
+pub(crate) use sensor_model::{check_weights, is_one_root, moves_of};
 pub use share::{ParameterMatrix, Share, UNSEEN_SHARE, WholeShare};
-pub use whole_model::{BasisSize, WholeModel, WholeParameter};
+pub use whole_model::{WholeModel, WholeParameter};
 
 use crate::method::modes::Modes;
 use nalgebra::{DMatrix, DVector};

@@ -1,18 +1,18 @@
-//! An exact analysis of a whole model that can tell more than its modes: their exact slopes at the sensors, and further shapes in which a
+//! An exact analysis of a whole model that can tell more than its modes: their exact slopes at the sensors, and deflections in which a
 //! change is followed.
 
+use super::matrix::GIVEN;
 use super::modes::{FINITE, Flexibility};
 use super::random::random_block;
-use super::residual_vectors::{leading_loads, residual_vectors};
-use super::share::{ParameterMatrix, WholeShare};
+use super::share::{ParameterMatrix, Share, WholeShare};
 use super::visibility::{open_parts, told, visible};
-use super::{SparseMatrix, WholeModel, no_modes, take_product, transposed_product};
+use super::{SparseMatrix, WholeModel, no_modes, places_above, take_product, transposed_product};
 use crate::method::error::{Error, check_count};
-use crate::method::linear_algebra::symmetric_part;
+use crate::method::linear_algebra::{symmetric_eigen, symmetric_part};
 use crate::method::modes::Modes;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
-use std::ops::{Range, RangeInclusive};
+use std::ops::RangeInclusive;
 use std::sync::{Arc, Mutex};
 
 /// Largest error of what the modes left out add to a slope, relative to it. It moves the end of weighted steps by at most as much times
@@ -28,32 +28,6 @@ const SENSORS_AT_ONCE: usize = 32;
 /// change by less than a millionth, and with weights of a hundred their squares leave no digit of a prior deviation of one.
 const SEPARATION: f64 = 1e-6;
 
-/// Deflections that stand behind the modes in a basis.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Deflections<'a> {
-    /// At most so many leading ones of every parameter.
-    Each(usize),
-    /// Leading ones of one parameter, whose share alone is looked at.
-    Own(usize),
-    /// So many of all parameters together.
-    All(usize),
-    /// Deflections of some modes under a change along these logarithms of factors, and so many of all parameters in these modes, of which
-    /// each has a weight.
-    Along {
-        direction: &'a [f64],
-        modes: &'a [usize],
-        further: usize,
-        weights: &'a [f64],
-    },
-}
-
-/// Shapes of a basis beyond the exact modes: residual vectors with their squared frequencies, and rigid-body modes, at the sensors.
-#[derive(Debug)]
-pub(crate) struct Further {
-    pub residual: Modes,
-    pub rigid_body: DMatrix<f64>,
-}
-
 /// An exact analysis: the matrices at some factors, their factor and the lowest modes at all degrees of freedom.
 #[derive(Debug)]
 pub(crate) struct Place {
@@ -66,12 +40,14 @@ pub(crate) struct Place {
     /// The modes at all degrees of freedom, those first that the sensors see, and their shapes times the mass.
     vibrations: Modes,
     weighted: DMatrix<f64>,
-    /// Modes that the sensors see, as they see them, and the shares of the parameters in them.
+    /// Modes that the sensors see, as they see them.
     modes: Modes,
+    /// Motions that nothing resists, where a mass is a parameter: no other change couples them with vibrations.
+    rigid_body: DMatrix<f64>,
+    /// The shares of the parameters in the modes that are seen, and in these motions behind them.
     shares: Vec<ParameterMatrix>,
     /// The lowest squared frequency of the vibrations left out; none where there are no others.
     next: Option<f64>,
-    rigid_body: DMatrix<f64>,
     sensors: SparseMatrix,
 }
 
@@ -96,7 +72,7 @@ impl Place {
             check_count(FINITE, least, 1, found.vibrations.len())?;
             let is_all = found.next.is_none();
             let all = (found.vibrations, found.next);
-            let visible = visible([&stiffness, &mass], sensors, all, most)?;
+            let visible = visible(sensors, all, most)?;
             // A last group left out is missed only where modes are too few without it.
             let is_enough = visible.seen == visible.modes.len() && visible.seen >= least;
             if is_all || is_enough || visible.seen >= most {
@@ -110,17 +86,16 @@ impl Place {
         let modes = Modes::signed(vibrations.omega_squared.clone(), seen.clone());
         turn_alike(&mut vibrations.shapes, &seen, &modes.shapes);
         let modes = modes.select(&(0..found.seen).collect::<Vec<_>>());
-        let shapes = vibrations.shapes.columns(0, found.seen).transpose();
-        let shares = whole.parts().zip(factors);
-        let shares = shares.map(|((share, _), &factor)| {
-            told(share.seen_by(factor, &shapes)?, factor, share, &vibrations)
-        });
-        Ok(Self {
+        let rigid_body = match whole.parts().any(|(share, _)| share.is_mass()) {
+            true => rigid_body,
+            false => no_modes(whole.dof_count()).shapes,
+        };
+        let mut place = Self {
             modes,
-            shares: shares.collect::<Result<_, Error>>()?,
             weighted: mass.times(&vibrations.shapes)?,
             next: found.next,
             rigid_body,
+            shares: Vec::new(),
             whole: whole.clone(),
             factors: factors.to_vec(),
             sensors: sensors.clone(),
@@ -128,7 +103,38 @@ impl Place {
             mass,
             flexibility: Mutex::new(Some(Arc::new(flexibility))),
             vibrations,
-        })
+        };
+        let transposed = place.known_shapes().transpose();
+        let share = |(e, (share, _)): (usize, (&WholeShare, &[usize]))| {
+            let seen = place.share_in(e, &transposed)?;
+            told(seen, place.factors[e], share, &place.known_modes())
+        };
+        let shares = whole.parts().enumerate().map(share);
+        place.shares = shares.collect::<Result<_, Error>>()?;
+        Ok(place)
+    }
+
+    /// The modes that the sensors see, at all degrees of freedom.
+    fn known_modes(&self) -> Modes {
+        self.shapes(usize::MAX)
+    }
+
+    /// Their shapes, and motions that nothing resists (DOF × N).
+    pub(super) fn known_shapes(&self) -> DMatrix<f64> {
+        let mut all = self.known_modes().shapes;
+        all.extend(self.rigid_body.column_iter());
+        all
+    }
+
+    /// The present share of a parameter in shapes that are given transposed (N × DOF).
+    pub(super) fn share_in(
+        &self,
+        e: usize,
+        transposed: &DMatrix<f64>,
+    ) -> Result<ParameterMatrix, Error> {
+        self.whole.parameters()[e]
+            .share
+            .seen_by(self.factors[e], transposed)
     }
 
     /// Frequencies (Hz) of the vibrations that the sensors see, and the part of each that the digits of the matrices leave open.
@@ -158,131 +164,145 @@ impl Place {
         deflections
     }
 
-    /// Some of the modes as the sensors see them.
-    fn some_modes(&self, from: usize, to: usize) -> Modes {
-        self.modes.select(&(from..to).collect::<Vec<_>>())
-    }
-
-    /// Loads (DOF × m) that make the deflections behind these vibrations.
-    fn loads(&self, deflections: Deflections, vibrations: &Modes) -> Result<DMatrix<f64>, Error> {
-        match deflections {
-            Deflections::Each(most) => self.leading_loads(0..self.factors.len(), most, vibrations),
-            Deflections::Own(e) => self.leading_loads(e..e + 1, MOST_EACH, vibrations),
-            Deflections::All(most) => {
-                let modes: Vec<usize> = (0..vibrations.len()).collect();
-                let loads = || self.loads_of(&modes);
-                self.loads_of_all(most, loads, &modes, &vec![1.0; modes.len()])
-            }
-            Deflections::Along {
-                direction,
-                modes,
-                further,
-                weights,
-            } => {
-                let (own, count) = (self.loads_of(modes), modes.len());
-                let along = direction
-                    .iter()
-                    .map(|along| DMatrix::from_diagonal_element(count, count, *along));
-                let mut loads = self.combined(&own, count, along);
-                let further = self.loads_of_all(further, || own, modes, weights)?;
-                loads.extend(further.column_iter());
-                Ok(loads)
-            }
-        }
-    }
-
-    /// Leading loads of some parameters in vibrations, at most so many of each.
-    fn leading_loads(
-        &self,
-        parameters: Range<usize>,
-        most: usize,
-        vibrations: &Modes,
-    ) -> Result<DMatrix<f64>, Error> {
-        let mut loads = DMatrix::zeros(self.whole.dof_count(), 0);
-        if most == 0 {
-            return Ok(loads);
-        }
-        let parts = self.whole.parts().skip(parameters.start);
-        for part in parts.take(parameters.len()) {
-            let own = leading_loads(part, vibrations, most)?;
-            loads.extend(own.column_iter());
-        }
-        Ok(loads)
-    }
-
-    /// At most so many loads under changes of any parameters: each parameter's leading ones where two of each are not too many, else
-    /// combinations of their loads in some modes, made where they are needed, that have much of the energy.
-    ///
-    /// With the loads of every parameter in every mode over its $\omega$ in $L$, random combinations $L Y$ are replaced by
-    /// $L L^t K^{-1} L Y$, in which those of most energy in their deflections prevail. Source: Halko, Martinsson and Tropp, *SIAM Review*
-    /// 53 (2011), 217.
-    fn loads_of_all(
-        &self,
-        most: usize,
-        loads: impl FnOnce() -> Vec<DMatrix<f64>>,
-        modes: &[usize],
-        weights: &[f64],
-    ) -> Result<DMatrix<f64>, Error> {
-        let each = most / self.factors.len().max(1);
-        if each > 1 || most == 0 {
-            let all = 0..self.factors.len();
-            return self.leading_loads(all, each.min(MOST_EACH), &self.vibrations);
-        }
-        let mut all = loads();
-        for own in &mut all {
-            let each = own.row_iter_mut().zip(modes).zip(weights);
-            each.for_each(|((mut loads, &mode), weight)| {
-                loads *= weight / self.vibrations.omega_squared[mode].sqrt();
-            });
-        }
-        let mut state = 0;
-        let random = all
-            .iter()
-            .map(|_| random_block(most, modes.len(), &mut state));
-        let random = self.combined(&all, most, random);
-        let deflections = self.take_modes(self.flexibility()?.solve(&random)?);
-        let own = self.whole.parts().zip(&all);
-        let weights =
-            own.map(|((_, rows), loads)| (loads * deflections.select_rows(rows)).transpose());
-        Ok(self.combined(&all, most, weights))
-    }
-
-    /// Sum over the parameters of combinations of their loads, by weights (`count` × modes) for each (DOF × `count`).
-    fn combined(
-        &self,
-        all: &[DMatrix<f64>],
-        count: usize,
-        weights: impl Iterator<Item = DMatrix<f64>>,
-    ) -> DMatrix<f64> {
+    /// Deflections (DOF × c), without the modes, of vibrations under changes of the parameters: sums of each parameter's loads in them by
+    /// its weights (c × modes), of which a parameter that does not change has none. Source: Coppolino, *SAE Technical Paper* 891082 (1989).
+    fn deflections(&self, of: &Modes, weights: &[DMatrix<f64>]) -> Result<DMatrix<f64>, Error> {
+        let count = weights.iter().map(DMatrix::nrows).max().unwrap_or(0);
         let mut sum = DMatrix::zeros(count, self.whole.dof_count());
-        for (((_, rows), loads), weights) in self.whole.parts().zip(all).zip(weights) {
-            let loads = weights * loads;
+        let shapes = of.shapes.transpose();
+        for (e, weights) in weights.iter().enumerate() {
+            if weights.is_empty() {
+                continue;
+            }
+            let loads = weights * self.loads_of(e, of, &shapes);
+            let rows = self.whole.parts().nth(e).map_or(&[][..], |own| own.1);
             for (&row, loads) in rows.iter().zip(loads.column_iter()) {
                 let mut sum = sum.column_mut(row);
                 sum += loads;
             }
         }
-        sum.transpose()
+        let first = self.flexibility()?.solve(&sum.transpose())?;
+        // Once leaves the round-off of what was taken away, twice is enough.
+        let mut left = self.take_modes(self.take_modes(first.clone()));
+        let (taken, weighted) = (first - &left, self.mass.times(&left)?);
+        let modal = transposed_product(&self.weighted, &taken);
+        for (column, mut left) in left.column_iter_mut().enumerate() {
+            // Of what the modes have to the digits nothing is left.
+            let own = left.dot(&weighted.column(column));
+            if own <= GIVEN * modal.column(column).norm_squared() {
+                left.fill(0.0);
+            }
+        }
+        Ok(left)
     }
 
-    /// Loads of some modes under a change of the logarithm of each parameter's factor, at its rows (modes × rows).
-    fn loads_of(&self, modes: &[usize]) -> Vec<DMatrix<f64>> {
-        let shapes = self.vibrations.shapes.select_columns(modes).transpose();
-        let of_part = |((share, _), factor): ((&WholeShare, &[usize]), &f64)| {
-            let mut loads = *factor * share.matrix().loads(&shapes);
-            if share.is_mass() {
-                for (mut loads, &mode) in loads.row_iter_mut().zip(modes) {
-                    loads *= -self.vibrations.omega_squared[mode];
-                }
+    /// Deflections of some modes under a change along these logarithms of factors, each of its own, and so many `further` ones of all
+    /// parameters, in modes that have a weight each.
+    pub(crate) fn along(
+        &self,
+        direction: &DVector<f64>,
+        modes: &[usize],
+        (further, weights): (usize, &[f64]),
+    ) -> Result<DMatrix<f64>, Error> {
+        let of = self.vibrations.select(modes);
+        let each = direction.iter();
+        let each = each.map(|own| DMatrix::from_diagonal_element(of.len(), of.len(), *own));
+        let mut all = self.deflections(&of, &each.collect::<Vec<_>>())?;
+        // The leading ones of each parameter, where two of each are not too many.
+        let most = further / self.factors.len().max(1);
+        if most > 1 {
+            for e in 0..self.factors.len() {
+                all.extend(self.leading(e, most)?.column_iter());
             }
-            loads
+        } else if further > 0 {
+            let further = self.drawn(None, modes, (further / 2, Some(weights)))?;
+            all.extend(further.column_iter());
+        }
+        Ok(all)
+    }
+
+    /// So many deflections of some modes, which may have a weight each, under changes of all parameters drawn by a `root` of their covariance, and
+    /// as many that these deflections have under other changes.
+    ///
+    /// Without a root combinations of loads are drawn that have much of the energy: with the loads of every parameter in every mode over
+    /// its $\omega$ in $L$, random ones $L Y$ are replaced by $L L^t K^{-1} L Y$. Source: Halko, Martinsson and Tropp, *SIAM Review* 53
+    /// (2011), 217.
+    pub(crate) fn drawn(
+        &self,
+        root: Option<&DMatrix<f64>>,
+        modes: &[usize],
+        (count, weights): (usize, Option<&[f64]>),
+    ) -> Result<DMatrix<f64>, Error> {
+        let of = self.vibrations.select(modes);
+        let ones = vec![1.0; modes.len()];
+        let sizes = DVector::from_column_slice(weights.unwrap_or(&ones));
+        let sizes = match root {
+            Some(_) => sizes,
+            None => sizes.component_div(&of.omega_squared.map(f64::sqrt)),
         };
-        let parts = self.whole.parts();
-        parts.zip(&self.factors).map(of_part).collect()
+        let (parameters, mut state) = (self.factors.len(), 0);
+        let mut random = |sizes: &DVector<f64>| drawn(root, (parameters, count), sizes, &mut state);
+        let mut first = self.deflections(&of, &random(&sizes))?;
+        if root.is_none() {
+            let (squares, shapes) = (
+                DMatrix::from_diagonal(&sizes.map(|own| own * own)),
+                of.shapes.transpose(),
+            );
+            let prevailing = |(e, (_, rows)): (usize, (&WholeShare, &[usize]))| {
+                (self.loads_of(e, &of, &shapes) * first.select_rows(rows)).transpose() * &squares
+            };
+            let prevailing: Vec<_> = self.whole.parts().enumerate().map(prevailing).collect();
+            first = self.deflections(&of, &prevailing)?;
+        }
+        let moved = Modes {
+            omega_squared: DVector::from_element(count, of.omega_squared.max()),
+            shapes: first,
+        };
+        let weights = random(&DVector::from_element(1, 1.0));
+        let weights = weights
+            .iter()
+            .map(|own| DMatrix::from_diagonal(&own.column(0)));
+        let second = self.deflections(&moved, &weights.collect::<Vec<_>>())?;
+        first = moved.shapes;
+        first.extend(second.column_iter());
+        Ok(first)
+    }
+
+    /// Deflections of all modes under a change of one parameter, of most energy, so many and no more than [`MOST_EACH`].
+    ///
+    /// Of its loads over $\omega_i$, which make modes count alike, these are the combinations $y$ of largest $y^t V^t P V y$, one a deformation
+    /// for a part that has fewer.
+    pub(crate) fn leading(&self, e: usize, most: usize) -> Result<DMatrix<f64>, Error> {
+        let (of, share) = (self.known_modes(), &self.shares[e]);
+        let per = DMatrix::from_diagonal(&of.omega_squared.map(|own| own.sqrt().recip()));
+        let own = share.matrix().view((0, 0), (of.len(), of.len()));
+        let energies = match share.is_mass() {
+            true => own.into_owned(),
+            false => &per * own * &per,
+        };
+        let what = "energy of a parameter in the modes";
+        let (energies, vectors) = symmetric_eigen(what, &symmetric_part(&energies))?;
+        let leading = places_above(&energies, GIVEN * energies.amax());
+        let vectors = vectors.select_columns(leading.iter().rev().take(most.min(MOST_EACH)));
+        let mut weights = vec![DMatrix::zeros(0, 0); self.factors.len()];
+        weights[e] = vectors.transpose() * per;
+        self.deflections(&of, &weights)
+    }
+
+    /// Loads of vibrations under a change of the logarithm of a parameter's factor, at its rows (modes × rows), from their transposed shapes.
+    fn loads_of(&self, e: usize, of: &Modes, transposed: &DMatrix<f64>) -> DMatrix<f64> {
+        let share = &self.whole.parameters()[e].share;
+        let mut loads = self.factors[e] * share.matrix().loads(transposed);
+        if share.is_mass() {
+            for (mut loads, square) in loads.row_iter_mut().zip(&of.omega_squared) {
+                loads *= -square;
+            }
+        }
+        loads
     }
 
     /// Hands out $(K^{-1} M)^t K^{-1}$ times loads, without the modes, for every term t.
-    fn deflections(
+    fn series(
         &self,
         loads: DMatrix<f64>,
         terms: usize,
@@ -304,7 +324,7 @@ impl Place {
     /// The lowest modes at the sensors.
     pub(crate) fn modes(&self, count: usize) -> Result<Modes, Error> {
         check_count(FINITE, count, 1, self.modes.len())?;
-        Ok(self.some_modes(0, count))
+        Ok(self.modes.select(&(0..count).collect::<Vec<_>>()))
     }
 
     /// The least number of modes, from so many on, that does not end between modes which keep their own shapes in slopes.
@@ -320,13 +340,42 @@ impl Place {
         self.vibrations.select(&(0..count).collect::<Vec<_>>())
     }
 
-    /// Every parameter's present share in the lowest shapes, at most so many.
-    pub(crate) fn shares(&self, count: usize) -> Vec<ParameterMatrix> {
-        let count = count.min(self.modes.len());
+    /// Every parameter's present share in the shapes that are known.
+    pub(crate) fn shares(&self) -> &[ParameterMatrix] {
+        &self.shares
+    }
+
+    /// Shares in the lowest modes alone, so many.
+    pub(crate) fn shares_of(&self, count: usize) -> Vec<ParameterMatrix> {
+        self.shares_among(&(0..count.min(self.modes.len())).collect::<Vec<_>>())
+    }
+
+    fn shares_among(&self, kept: &[usize]) -> Vec<ParameterMatrix> {
         let part = |share: &ParameterMatrix| {
-            share.of(share.matrix().view((0, 0), (count, count)).into_owned())
+            share.of(share.matrix().select_rows(kept).select_columns(kept))
         };
         self.shares.iter().map(part).collect()
+    }
+
+    /// Shares in the lowest modes, so many, and in motions that nothing resists.
+    pub(super) fn shares_with_rigid(&self, count: usize) -> Vec<ParameterMatrix> {
+        let rigid = self.modes.len()..self.modes.len() + self.rigid_body.ncols();
+        self.shares_among(&(0..count).chain(rigid).collect::<Vec<_>>())
+    }
+
+    /// Motions that nothing resists, where a mass is a parameter (DOF × r).
+    pub(super) fn rigid_body(&self) -> &DMatrix<f64> {
+        &self.rigid_body
+    }
+
+    /// Squared frequencies of the modes that the sensors see.
+    pub(super) fn squares(&self) -> &DVector<f64> {
+        &self.modes.omega_squared
+    }
+
+    /// Stiffness and mass.
+    pub(super) fn matrices(&self) -> [&SparseMatrix; 2] {
+        [&self.stiffness, &self.mass]
     }
 
     /// The matrix that reads its sensors.
@@ -350,94 +399,6 @@ impl Place {
         below.map(|root| root.sqrt() / TAU).collect()
     }
 
-    /// Shapes of a basis behind a number of modes, and the shares in all of them.
-    pub(super) fn basis(
-        &self,
-        count: usize,
-        deflections: Deflections,
-    ) -> Result<(Further, Vec<ParameterMatrix>), Error> {
-        let parameters = match deflections {
-            Deflections::Own(e) => e..e + 1,
-            _ => 0..self.factors.len(),
-        };
-        // The loops' basis is what its size says.
-        let own = match deflections {
-            Deflections::Each(_) => count,
-            _ => self.modes.len(),
-        };
-        // Only a change of mass couples rigid-body modes with vibrations.
-        let has_mass = self.whole.parts().any(|(share, _)| share.is_mass());
-        let rigid_body = match has_mass {
-            true => self.rigid_body.clone(),
-            false => no_modes(self.whole.dof_count()).shapes,
-        };
-        let vibrations = self.shapes(own);
-        let loads = self.loads(deflections, &vibrations)?;
-        if loads.ncols() + rigid_body.ncols() == 0 {
-            let further = Further {
-                residual: self.some_modes(count, own),
-                rigid_body: DMatrix::zeros(self.sensors.rows(), 0),
-            };
-            let mut shares = self.shares(own);
-            return Ok((further, shares.drain(parameters).collect()));
-        }
-        let flexibility = self.flexibility()?;
-        let (deflections, loads) = (flexibility.solve(&loads)?, flexibility.balanced(loads));
-        // What is left has no part of modes that the sensors do not see.
-        let without = match own == self.modes.len() {
-            true => &self.vibrations,
-            false => &vibrations,
-        };
-        let weighted = self.weighted.columns(0, without.len()).into_owned();
-        let residual = residual_vectors(&self.mass, (without, &weighted), (deflections, loads))?;
-        let mut transposed = residual.shapes.transpose();
-        let first = transposed.nrows();
-        transposed = transposed.resize_vertically(first + rigid_body.ncols(), 0.0);
-        let mut last = transposed.rows_mut(first, rigid_body.ncols());
-        last.tr_copy_from(&rigid_body);
-        let shares = self.shares_beside(&vibrations.shapes, &transposed, parameters);
-        let mut behind = self.some_modes(count, own);
-        let squares = residual.omega_squared.iter().copied();
-        behind.omega_squared.extend(squares);
-        let seen = self.sensors.times(&residual.shapes)?;
-        behind.shapes.extend(seen.column_iter());
-        let further = Further {
-            residual: behind,
-            rigid_body: self.sensors.times(&rigid_body)?,
-        };
-        Ok((further, shares))
-    }
-
-    /// Shares of some parameters in the lowest shapes (DOF × n), where they are known, and in further ones, given transposed (m × DOF).
-    fn shares_beside(
-        &self,
-        shapes: &DMatrix<f64>,
-        further: &DMatrix<f64>,
-        parameters: Range<usize>,
-    ) -> Vec<ParameterMatrix> {
-        let (count, size) = (shapes.ncols(), shapes.ncols() + further.nrows());
-        let parts = self.whole.parts().zip(&self.factors);
-        let all = self.shares(count).into_iter().zip(parts);
-        let share = |(known, ((share, rows), factor)): (
-            ParameterMatrix,
-            ((&WholeShare, &[usize]), &f64),
-        )| {
-            let loads = *factor * share.matrix().loads(further);
-            let coupled = &loads * shapes.select_rows(rows);
-            let own = symmetric_part(&(loads * further.select_columns(rows).transpose()));
-            let mut matrix = known.matrix().clone().resize(size, size, 0.0);
-            matrix
-                .view_mut((count, 0), coupled.shape())
-                .copy_from(&coupled);
-            let mut mirror = matrix.view_mut((0, count), (count, own.nrows()));
-            mirror.tr_copy_from(&coupled);
-            matrix.view_mut((count, count), own.shape()).copy_from(&own);
-            known.of(matrix)
-        };
-        let some = all.skip(parameters.start).take(parameters.len());
-        some.map(share).collect()
-    }
-
     /// The lowest modes, at most so many, and rigid-body modes where a basis has them, as other sensors read them, and the modes that this
     /// analysis' sensors do not see.
     pub(crate) fn read_by(
@@ -446,18 +407,15 @@ impl Place {
         count: usize,
     ) -> Result<[DMatrix<f64>; 2], Error> {
         let mut basis = self.shapes(count).shapes;
-        if self.whole.parts().any(|(share, _)| share.is_mass()) {
-            basis.extend(self.rigid_body.column_iter());
-        }
+        basis.extend(self.rigid_body.column_iter());
         let unseen = self.modes.len()..self.vibrations.len();
         let unseen = self.vibrations.shapes.columns_range(unseen).into_owned();
         Ok([sensors.times(&basis)?, sensors.times(&unseen)?])
     }
 
-    /// Parts that all but a number of modes have in the slopes of these modes at sensors, which see none but
-    /// those of this analysis (d × p each).
+    /// Slopes of some modes at sensors, which see none but those of this analysis, by the logarithm of every factor (d × p each).
     ///
-    /// Of a mode i, the column of parameter e is the sum over the modes found beyond `count`, as in [`jacobian`](crate::weighted::residuals::jacobian),
+    /// Of a mode i, the column of parameter e is the sum over the modes found, as in [`jacobian`](crate::weighted::residuals::jacobian),
     /// and over all others
     ///
     /// $$ -R \sum_t a_t (K^{-1} M)^t K^{-1} f_{ei}, \qquad \sum_t a_t x^t \approx \frac{1}{1 - \lambda_i x} $$
@@ -466,38 +424,23 @@ impl Place {
     /// the exact slope where the series is the fraction at $x = 1/\lambda_r$ of every mode r left out ([`coefficients`]). It is taken from
     /// the sensors' side, $K^{-1} R^t$ and so on, or from the loads', whichever are fewer: no factor but that of $K$ is needed, and no
     /// solution a parameter where these are many.
-    pub(crate) fn slopes_beyond(
+    pub(crate) fn slopes(
         &self,
         sensors: &SparseMatrix,
-        count: usize,
         modes: &[usize],
     ) -> Result<Vec<DMatrix<f64>>, Error> {
-        let roots = modes
-            .iter()
-            .map(|&mode| self.vibrations.omega_squared[mode]);
-        let roots: Vec<f64> = roots.collect();
+        let of = self.vibrations.select(modes);
+        let roots: Vec<f64> = of.omega_squared.iter().copied().collect();
         let highest = roots.iter().copied().fold(0.0, f64::max);
         let terms = terms(highest, self.next);
-        let all = self.loads_of(modes);
-        let mut slopes = vec![DMatrix::zeros(sensors.rows(), all.len()); modes.len()];
-        let beyond = self
-            .vibrations
-            .select(&(count..self.modes.len()).collect::<Vec<_>>());
-        let seen = sensors.times(&beyond.shapes)?;
-        for (e, share) in self.shares.iter().enumerate() {
-            for ((slopes, &mode), root) in slopes.iter_mut().zip(modes).zip(&roots) {
-                let scale = if share.is_mass() { -root } else { 1.0 };
-                let own = share.matrix().view((count, mode), (beyond.len(), 1));
-                let apart = beyond
-                    .omega_squared
-                    .map(|other| match is_held(*root, other) {
-                        true => f64::INFINITY,
-                        false => root - other,
-                    });
-                let shares = scale * own.component_div(&apart);
-                slopes.set_column(e, &(&seen * shares));
-            }
-        }
+        let shapes = of.shapes.transpose();
+        let loads = |e| self.loads_of(e, &of, &shapes);
+        let all: Vec<DMatrix<f64>> = (0..self.factors.len()).map(loads).collect();
+        let seen = sensors.times(&self.known_shapes())?;
+        let squares = self.squares().clone().resize_vertically(seen.ncols(), 0.0);
+        let own =
+            |&mode: &usize| &seen * added(couplings(&self.shares, &squares, mode), &squares, mode);
+        let mut slopes: Vec<DMatrix<f64>> = modes.iter().map(own).collect();
         let series = roots.iter();
         let series: Vec<_> = series
             .map(|&root| coefficients(root, self.next, terms))
@@ -525,7 +468,7 @@ impl Place {
                     loads[(row, e)] = own[(place, at)];
                 }
             }
-            self.deflections(loads, series.len(), |t, deflections| {
+            self.series(loads, series.len(), |t, deflections| {
                 *slopes -= series[t] * sensors.times(deflections)?;
                 Ok(())
             })?;
@@ -551,7 +494,7 @@ impl Place {
                     .column(sensor)
                     .for_each(|(row, value)| loads[(row, place)] = value);
             }
-            self.deflections(loads, terms, |t, deflections| {
+            self.series(loads, terms, |t, deflections| {
                 for (e, ((_, rows), own)) in self.whole.parts().zip(all).enumerate() {
                     let read = own * deflections.select_rows(rows);
                     for (i, (slopes, series)) in slopes.iter_mut().zip(series).enumerate() {
@@ -573,6 +516,51 @@ impl Place {
 /// True of squared frequencies so near that their modes keep their own shapes in slopes.
 pub(crate) fn is_held(a: f64, b: f64) -> bool {
     (a - b).abs() <= SEPARATION * a.max(b)
+}
+
+/// Couplings (N × p) of mode i with all shapes of a basis by the shares of every parameter in it, of squared frequencies `squares` (N): a mass
+/// enters as $-\omega_i^2 \alpha_{ri}$.
+pub(super) fn couplings(
+    shares: &[ParameterMatrix],
+    squares: &DVector<f64>,
+    i: usize,
+) -> DMatrix<f64> {
+    let entry = |r: usize, e: usize| match &shares[e] {
+        Share::Stiffness(share) => share[(r, i)],
+        Share::Mass(share) => -squares[i] * share[(r, i)],
+    };
+    DMatrix::from_fn(squares.len(), shares.len(), entry)
+}
+
+/// The part of every other shape of a basis that couplings (N × p) add to mode i, by the logarithm of a factor.
+pub(super) fn added(mut couplings: DMatrix<f64>, squares: &DVector<f64>, i: usize) -> DMatrix<f64> {
+    for (mut row, square) in couplings.row_iter_mut().zip(squares) {
+        match is_held(squares[i], *square) {
+            true => row.fill(0.0),
+            false => row /= squares[i] - square,
+        }
+    }
+    couplings
+}
+
+/// Weights (c × modes) of every parameter's loads in modes of these `sizes` for `count` changes, drawn by a root of the covariance of their
+/// logarithms, or each by itself.
+fn drawn(
+    root: Option<&DMatrix<f64>>,
+    (parameters, count): (usize, usize),
+    sizes: &DVector<f64>,
+    state: &mut u64,
+) -> Vec<DMatrix<f64>> {
+    let random = random_block(parameters, count * sizes.len(), state);
+    let changes = match root {
+        Some(root) => root * random,
+        None => random,
+    };
+    let sizes = DMatrix::from_diagonal(sizes);
+    let own = changes.row_iter().map(|own| {
+        DMatrix::from_column_slice(count, sizes.nrows(), own.transpose().as_slice()) * &sizes
+    });
+    own.collect()
 }
 
 /// Turns the columns of shapes at all DOF whose counterparts at the sensors the sign rule has turned.

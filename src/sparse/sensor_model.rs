@@ -1,28 +1,27 @@
-//! The analysis of a user's model for the loops: modes as sensors see them, in a basis with residual vectors and rigid-body modes,
+//! The analysis of a user's model for the loops: modes as sensors see them and motions that nothing resists,
 //! changes of stiffness and of mass, weights of the test modes, and any rule of pairing.
 
 use super::assurance::cosines;
 use super::mass_changes::{
     Change, apart_from_rigid_bodies, normalize_with_mass, with_rigid_bodies,
 };
-use super::place::{Deflections, Further, Place, turn_alike};
-use super::share::ParameterMatrix;
-use super::transposed_product;
+use super::place::{Place, added, couplings};
+use super::share::{ParameterMatrix, Share};
 use crate::method::analysis::{
     Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings,
 };
 use crate::method::appendix_c::Pencil;
 use crate::method::error::{Error, require};
 use crate::method::error_sum::{Errors, ModeError, errors, mode_errors};
-use crate::method::linear_algebra::{check_length, check_shape, symmetric_eigen, symmetric_part};
+use crate::method::linear_algebra::{check_length, check_shape};
 use crate::method::model::Model;
-use crate::method::modes::{Modes, check_vibrations, solve};
+use crate::method::modes::{Modes, check_vibrations};
 use crate::method::perturbation::{
     Perturbed, SMALLEST_SEPARATION, first_order, recursive_1_converged,
 };
 use crate::method::sorting::{Pairing, pair_modes};
 use crate::method::step::{REFERENCE_GAGE, StepRule};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
@@ -31,11 +30,12 @@ pub(crate) fn is_one_root(a: f64, b: f64) -> bool {
     (a - b).abs() <= SMALLEST_SEPARATION * a.max(b)
 }
 
-/// Parts (n × p) that shares have in the stiffness or mass of the modes at the head of their basis. Modes that follow from these have about
-/// the same.
-pub(crate) fn parts_of(shares: &[ParameterMatrix], modes: &Modes) -> DMatrix<f64> {
-    DMatrix::from_fn(modes.len(), shares.len(), |mode, e| {
-        shares[e].part(mode, modes.omega_squared[mode])
+/// Slopes (n × p) of the squared frequencies of the modes at the head of a basis by the logarithm of every factor, relative to these: the part
+/// that a share has in the stiffness of a mode, or in its mass, negative.
+pub(crate) fn moves_of(shares: &[ParameterMatrix], modes: &Modes) -> DMatrix<f64> {
+    DMatrix::from_fn(modes.len(), shares.len(), |mode, e| match &shares[e] {
+        Share::Stiffness(share) => share[(mode, mode)] / modes.omega_squared[mode],
+        Share::Mass(share) => -share[(mode, mode)],
     })
 }
 
@@ -89,8 +89,8 @@ pub struct Candidates<'a> {
     pub cross: &'a DMatrix<f64>,
     /// The modes at the sensors.
     pub modes: &'a Modes,
-    /// Makes the parts (n × p) that the parameters have in the stiffness or mass of each; none where shapes alone are followed.
-    pub parts: Option<&'a dyn Fn() -> DMatrix<f64>>,
+    /// Slopes (n × p) of the squared frequency of each by the logarithm of every factor, relative to it; none where shapes alone are followed.
+    pub moves: Option<&'a DMatrix<f64>>,
 }
 
 /// A function that pairs.
@@ -124,59 +124,25 @@ pub struct SensorModel {
     pub(crate) exact: State,
     /// The test modes, each of the scale of the mode that it is paired with.
     pub(crate) test: Modes,
-    /// Squared circular frequencies of the shapes of the basis that vibrate: the exact modes, then residual vectors, rad²/s² (N).
-    pub(crate) omega_squared: DVector<f64>,
-    /// All shapes of the basis at the sensors: those, then rigid-body modes.
+    /// The exact modes at the sensors, then motions that nothing resists, where a change of mass couples them (N).
     pub(crate) basis: DMatrix<f64>,
     /// Cosine of every shape of the basis with the test modes; zero beyond the exact modes.
     pub(crate) cross: DMatrix<f64>,
     pub(crate) pair: Pair,
     weights: Vec<ModeWeight>,
-    /// Generalized stiffness or mass of every parameter in the basis, or in that from which this one was turned.
-    pub(crate) shares: Arc<Vec<ParameterMatrix>>,
-    /// Turn from that basis, if there was one.
-    turn: Option<Turn>,
+    /// Slopes (n × p) of the squared frequency of every exact mode by the logarithm of every factor, relative to it.
+    pub(crate) moves: DMatrix<f64>,
+    /// Generalized stiffness or mass of every parameter in the basis; none where slopes are all that is known.
+    pub(crate) shares: Vec<ParameterMatrix>,
     test_shares: Vec<DMatrix<f64>>,
     gages: Vec<f64>,
     /// The analysis that it is of, if it is one of a whole model.
     place: Option<Arc<Place>>,
-    /// Parts that the modes left out have in the slopes of each exact mode's shape (d × p), of those that are compared, where they are
-    /// known.
-    pub(crate) beyond: Vec<Option<DMatrix<f64>>>,
-}
-
-/// Turn of a basis by a change of the parameters.
-#[derive(Debug, Clone)]
-struct Turn {
-    /// The shapes in terms of the basis before (N × N).
-    shapes: DMatrix<f64>,
-    /// Factor of every parameter on its share.
-    factors: Vec<f64>,
+    /// Exact slopes (d × p) of the shape of every exact mode that is compared, where they are known.
+    pub(crate) slopes: Vec<Option<DMatrix<f64>>>,
 }
 
 impl SensorModel {
-    /// The model of exact modes that some sensors see (d × n), without a mass there.
-    ///
-    /// They are paired by `pair` with the cosine between two shapes in place of their cross-orthogonality; its square is the
-    /// modal assurance criterion. Every test mode is scaled by its modal scale factor to the mode it is paired with, whose
-    /// generalized stiffness stands for its own. `further` shapes of the basis, orthonormal to the modes in the whole model's mass and
-    /// diagonal in its stiffness, are paired with none. `shares` are $V^t K_e V$ or $V^t M_e V$ with the basis at all DOF.
-    pub(crate) fn at_sensors(
-        modes: Modes,
-        further: &Further,
-        test: &Modes,
-        pair: Pair,
-        shares: Vec<ParameterMatrix>,
-    ) -> Result<Self, Error> {
-        let mut model = Self::turned(modes, further, test, pair, (Arc::new(shares), None))?;
-        model.test_shares = model
-            .shares
-            .iter()
-            .map(|share| model.on_test(share))
-            .collect();
-        Ok(model)
-    }
-
     /// A parameter's share of the test modes' stiffness or mass (g × g).
     fn on_test(&self, share: &ParameterMatrix) -> DMatrix<f64> {
         let Pairing {
@@ -196,19 +162,23 @@ impl SensorModel {
         DMatrix::from_fn(sign.len(), sign.len(), entry)
     }
 
-    fn turned(
+    /// The model of exact modes that some sensors see (d × n), without a mass there, and of motions that nothing resists.
+    ///
+    /// They are paired by `pair` with the cosine between two shapes in place of their cross-orthogonality; its square is the
+    /// modal assurance criterion. Every test mode is scaled by its modal scale factor to the mode it is paired with, whose
+    /// generalized stiffness stands for its own.
+    pub(super) fn new(
         modes: Modes,
-        further: &Further,
+        rigid_body: Option<&DMatrix<f64>>,
         test: &Modes,
         pair: Pair,
-        (shares, turn): (Arc<Vec<ParameterMatrix>>, Option<Turn>),
+        moves: DMatrix<f64>,
     ) -> Result<Self, Error> {
         let cross = cosines(&modes.shapes, &test.shapes)?;
-        let parts = || parts_of(&shares, &modes);
         let pairing = pair.of(Candidates {
             cross: &cross,
             modes: &modes,
-            parts: Some(&parts),
+            moves: Some(&moves),
         })?;
         let mut scaled = test.clone();
         for (j, mut shape) in scaled.shapes.column_iter_mut().enumerate() {
@@ -218,44 +188,46 @@ impl SensorModel {
                 shape *= pairing.sign[j] * along / shape.norm_squared();
             }
         }
-        let (mut omega_squared, mut basis) = (modes.omega_squared.clone(), modes.shapes.clone());
-        omega_squared.extend(further.residual.omega_squared.iter().copied());
-        basis.extend(further.residual.shapes.column_iter());
-        basis.extend(further.rigid_body.column_iter());
-        let count = modes.len();
+        let mut basis = modes.shapes.clone();
+        if let Some(rigid_body) = rigid_body {
+            basis.extend(rigid_body.column_iter());
+        }
         Ok(Self {
             test_shares: Vec::new(),
-            gages: vec![REFERENCE_GAGE; shares.len()],
+            gages: vec![REFERENCE_GAGE; moves.ncols()],
+            slopes: vec![None; modes.len()],
             exact: State {
-                factors: vec![1.0; shares.len()],
-                generalized_shapes: DMatrix::identity(basis.ncols(), count),
+                factors: vec![1.0; moves.ncols()],
+                generalized_shapes: DMatrix::identity(basis.ncols(), modes.len()),
                 errors: errors(&modes, &pairing, &scaled)?,
                 modes,
                 pairing,
             },
             cross: cross.resize_vertically(basis.ncols(), 0.0),
             test: scaled,
-            beyond: vec![None; count],
             place: None,
-            omega_squared,
             basis,
             pair,
             weights: vec![ModeWeight::ONE; test.len()],
-            shares,
-            turn,
+            shares: Vec::new(),
+            moves,
         })
     }
 
-    /// The model of the lowest modes of an analysis, with deflections behind them in the basis.
+    /// The model of the lowest modes of an analysis.
     pub(crate) fn of_whole(
         place: Arc<Place>,
         count: usize,
         test: &Modes,
         pair: Pair,
-        deflections: Deflections,
     ) -> Result<Self, Error> {
-        let (modes, (further, shares)) = (place.modes(count)?, place.basis(count, deflections)?);
-        let mut model = Self::at_sensors(modes, &further, test, pair, shares)?;
+        let (modes, shares) = (place.modes(count)?, place.shares_with_rigid(count));
+        let rigid_body = place.sensors().times(place.rigid_body())?;
+        let moves = moves_of(&shares, &modes);
+        let mut model = Self::new(modes, Some(&rigid_body), test, pair, moves)?;
+        let on_test = shares.iter().map(|share| model.on_test(share));
+        model.test_shares = on_test.collect();
+        model.shares = shares;
         model.place = Some(place);
         Ok(model)
     }
@@ -280,38 +252,27 @@ impl SensorModel {
         (0..k.len()).filter(is_at_root).collect()
     }
 
-    /// The model with exact slopes of the shapes that are compared, where no residual vectors stand for them in its basis.
+    /// The model with exact slopes of the shapes that are compared.
     pub(crate) fn with_slopes(mut self) -> Result<Self, Error> {
         if let Some(place) = &self.place
-            && self.omega_squared.len() == self.exact.modes.len()
-            && self.beyond.iter().all(Option::is_none)
+            && self.slopes.iter().all(Option::is_none)
         {
-            let (compared, count) = (self.compared(), self.exact.modes.len());
-            let slopes = place.slopes_beyond(place.sensors(), count, &compared)?;
+            let compared = self.compared();
+            let slopes = place.slopes(place.sensors(), &compared)?;
             for (mode, slopes) in compared.into_iter().zip(slopes) {
-                self.beyond[mode] = Some(slopes);
+                self.slopes[mode] = Some(slopes);
             }
         }
         Ok(self)
     }
 
-    /// The model in a basis with other deflections; where the analysis is not at hand, in its own.
-    pub(crate) fn in_basis(&self, deflections: Deflections) -> Result<Self, Error> {
-        let Some(place) = &self.place else {
-            let mut own = self.clone();
-            if let Deflections::Own(e) = deflections {
-                own.shares = Arc::new(vec![self.shares[e].clone()]);
-            }
-            return Ok(own);
-        };
-        let (further, shares) = place.basis(self.exact.modes.len(), deflections)?;
-        Self::at_sensors(
-            self.exact.modes.clone(),
-            &further,
-            &self.test,
-            self.pair.clone(),
-            shares,
-        )
+    /// Slopes (d × p) of the shape of an exact mode by the logarithm of every factor: the exact ones, or those within its basis.
+    pub(crate) fn slopes_of(&self, mode: usize) -> DMatrix<f64> {
+        let squares = &self.exact.modes.omega_squared;
+        self.slopes[mode].clone().unwrap_or_else(|| {
+            let squares = squares.clone().resize_vertically(self.basis.ncols(), 0.0);
+            &self.basis * added(couplings(&self.shares, &squares, mode), &squares, mode)
+        })
     }
 
     /// The test modes, each of the scale of the mode that it is paired with.
@@ -319,17 +280,7 @@ impl SensorModel {
         &self.test
     }
 
-    /// Squared circular frequencies of the vibrations of the basis, rad²/s²: the exact modes, then residual vectors.
-    pub fn omega_squared(&self) -> &DVector<f64> {
-        &self.omega_squared
-    }
-
-    /// Parts (n × p) that the parameters have in the stiffness or mass of the exact modes.
-    pub(crate) fn parts(&self) -> DMatrix<f64> {
-        parts_of(&self.shares, &self.exact.modes)
-    }
-
-    /// All shapes of the basis at the sensors: the exact modes, residual vectors, rigid-body modes.
+    /// All shapes of the basis at the sensors: the exact modes, motions that nothing resists.
     pub fn basis(&self) -> &DMatrix<f64> {
         &self.basis
     }
@@ -365,7 +316,7 @@ impl SensorModel {
     /// The change of all parameters together.
     fn change(&self, factors: &[f64]) -> Result<Change, Error> {
         check_length("parameter factors", factors.len(), self.shares.len())?;
-        let (count, size) = (self.omega_squared.len(), self.basis.ncols());
+        let (count, size) = (self.exact.modes.len(), self.basis.ncols());
         let (mut beta, mut alpha) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
         for (e, s) in factors.iter().enumerate().filter(|(_, s)| **s != 1.0) {
             let add = |sum: &mut DMatrix<f64>, matrix: &DMatrix<f64>| {
@@ -388,101 +339,12 @@ impl SensorModel {
         })
     }
 
-    /// The model that follows from this one at `factors` on its shares, exact in its basis: the modes of $k + \beta$ with $I + \alpha$ in
-    /// place of an analysis, paired anew as by sensors; and the exact modes' shapes in terms of this basis, which is none that followed
-    /// from another itself.
-    pub(crate) fn followed(&self, factors: &[f64]) -> Result<(Self, DMatrix<f64>), Error> {
-        let (vibrations, mut generalized) = self.solved(factors)?;
-        let (count, all) = (self.exact.modes.len(), self.omega_squared.len());
-        let seen = &self.basis * &generalized;
-        let squares = &vibrations.omega_squared;
-        let modes = Modes::signed(
-            squares.rows(0, count).into_owned(),
-            seen.columns(0, count).into_owned(),
-        );
-        turn_alike(&mut generalized, &seen, &modes.shapes);
-        let rest = |first: usize, size: usize| seen.columns(first, size).into_owned();
-        let further = Further {
-            residual: Modes {
-                omega_squared: squares.rows(count, all - count).into_owned(),
-                shapes: rest(count, all - count),
-            },
-            rigid_body: rest(all, self.basis.ncols() - all),
-        };
-        let turn = Turn {
-            shapes: generalized.clone(),
-            factors: factors.to_vec(),
-        };
-        let shares = (Arc::clone(&self.shares), Some(turn));
-        let mut model = Self::turned(modes, &further, &self.test, self.pair.clone(), shares)?;
-        model.gages.clone_from(&self.gages);
-        model.weights.clone_from(&self.weights);
-        Ok((model, generalized))
-    }
-
-    /// Shares of the parameters that couple every shape of the basis with some modes, $\beta_{ri}$, or $-\omega_i^2 \alpha_{ri}$ of a mass: one
-    /// matrix (N × p) a mode.
-    pub(crate) fn couplings(&self, modes: &[usize]) -> Vec<DMatrix<f64>> {
-        let (size, count) = (self.basis.ncols(), self.shares.len());
-        // Side by side, so that every share is read once.
-        let mut all = DMatrix::zeros(size, count * modes.len());
-        let own = self
-            .turn
-            .as_ref()
-            .map(|turn| turn.shapes.select_columns(modes));
-        for (e, share) in self.shares.iter().enumerate() {
-            let (mut columns, mut scale) = (all.columns_mut(e * modes.len(), modes.len()), 1.0);
-            match (&own, &self.turn) {
-                (Some(own), Some(turn)) => {
-                    columns.gemm(1.0, share.matrix(), own, 0.0);
-                    scale = turn.factors[e];
-                }
-                _ => columns.copy_from(&share.matrix().select_columns(modes)),
-            }
-            for (mut column, &mode) in columns.column_iter_mut().zip(modes) {
-                let root = if share.is_mass() {
-                    -self.omega_squared[mode]
-                } else {
-                    1.0
-                };
-                column *= scale * root;
-            }
-        }
-        let all = match &self.turn {
-            None => all,
-            Some(turn) => transposed_product(&turn.shapes, &all),
-        };
-        let of_mode =
-            |place: usize| DMatrix::from_fn(size, count, |r, e| all[(r, e * modes.len() + place)]);
-        (0..modes.len()).map(of_mode).collect()
-    }
-
-    /// Vibrations at factors by an eigensolution in the basis, ascending, and the shapes of all its changed shapes (N × N).
-    fn solved(&self, factors: &[f64]) -> Result<(Modes, DMatrix<f64>), Error> {
-        let Change { beta, alpha, apart } = self.change(factors)?;
-        let (k, size) = (&self.omega_squared, self.omega_squared.len());
-        let stiffness = symmetric_part(&(DMatrix::from_diagonal(k) + beta));
-        let vibrations = match self.shares.iter().any(ParameterMatrix::is_mass) {
-            true => {
-                let mass = symmetric_part(&(DMatrix::identity(size, size) + alpha));
-                solve(&stiffness, &mass, size)?
-            }
-            false => {
-                let (squares, shapes) = symmetric_eigen("stiffness in the basis", &stiffness)?;
-                Modes::new(squares, shapes)?
-            }
-        };
-        let generalized = with_rigid_bodies(&apart, &vibrations.shapes);
-        Ok((vibrations, generalized))
-    }
-
-    /// The test modes' pairs among modes that follow from the exact ones, of these cosines.
     fn paired(&self, cross: &DMatrix<f64>, modes: &Modes) -> Result<Pairing, Error> {
-        let parts = || parts_of(&self.shares, modes);
+        let moves = moves_of(&self.shares, modes);
         self.pair.of(Candidates {
             cross,
             modes,
-            parts: Some(&parts),
+            moves: Some(&moves),
         })
     }
 }
@@ -492,18 +354,18 @@ impl From<&Model> for SensorModel {
     fn from(model: &Model) -> Self {
         let exact = model.exact().clone();
         let shares = model.shares().iter().cloned();
+        let shares: Vec<_> = shares.map(ParameterMatrix::Stiffness).collect();
         Self {
             test: model.test().clone(),
-            omega_squared: exact.modes.omega_squared.clone(),
             basis: exact.modes.shapes.clone(),
             cross: model.cross().clone(),
             pair: Pair::by(|of| pair_modes(of.cross)),
             weights: vec![ModeWeight::ONE; model.test().len()],
-            shares: Arc::new(shares.map(ParameterMatrix::Stiffness).collect()),
-            turn: None,
+            moves: moves_of(&shares, &exact.modes),
+            shares,
             test_shares: model.test_shares().to_vec(),
             gages: model.gages().to_vec(),
-            beyond: vec![None; exact.modes.len()],
+            slopes: vec![None; exact.modes.len()],
             place: None,
             exact,
         }
@@ -519,7 +381,7 @@ impl Analysis for SensorModel {
     /// continues.
     fn at(&self, factors: &[f64]) -> Result<State, Error> {
         let Change { beta, alpha, apart } = self.change(factors)?;
-        let k = &self.omega_squared;
+        let k = &self.exact.modes.omega_squared;
         let settled = match self.shares.iter().any(ParameterMatrix::is_mass) {
             true => Pencil::of_vibrations(k, &beta, &alpha)?.recursive_1_converged()?,
             false => recursive_1_converged(k, &beta)?,
@@ -568,7 +430,7 @@ impl SensorModel {
     /// [`Error::WrongShape`] for the state of another model; [`Error::NotAVibration`] where a thousandth is too much.
     pub(crate) fn changed_modes(&self, state: &State) -> Result<Vec<Modes>, Error> {
         let (p, k) = (&state.generalized_shapes, &state.modes.omega_squared);
-        let (count, size) = (self.omega_squared.len(), self.basis.ncols());
+        let (count, size) = (self.exact.modes.len(), self.basis.ncols());
         check_shape("shapes of the state", p, size, count)?;
         let apart = self.change(&state.factors)?.apart;
         let rigid = apart.columns(count, size - count);

@@ -45,16 +45,6 @@ impl<M> Share<M> {
     }
 }
 
-impl ParameterMatrix {
-    /// Part of the stiffness or mass of a mode of this squared frequency.
-    pub(crate) fn part(&self, mode: usize, square: f64) -> f64 {
-        match self {
-            Self::Stiffness(share) => share[(mode, mode)] / square,
-            Self::Mass(share) => share[(mode, mode)],
-        }
-    }
-}
-
 impl WholeShare {
     /// The share at a factor, in shapes that are given transposed (m × DOF), m × m.
     pub(super) fn seen_by(

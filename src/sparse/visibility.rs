@@ -1,6 +1,5 @@
 //! Modes that sensors see, and those that exist for nobody.
 
-use super::matrix::ASSEMBLED;
 use super::{ParameterMatrix, Share, SparseMatrix, UNSEEN_SHARE, WholeShare};
 use crate::method::error::Error;
 use crate::method::modes::Modes;
@@ -46,98 +45,51 @@ pub(super) struct Visible {
     pub(super) next: Option<f64>,
 }
 
-/// Sorts modes of unit generalized mass by what sensors $S$ see of them; of those seen at most so many stay.
+/// Sorts modes of unit generalized mass by what sensors $S$ see of them; of those seen at most so many stay. `next` is the lowest squared
+/// frequency beyond the modes, none where there are no others.
 ///
-/// Rounding of the entries by up to $h$, of the stiffness, and $m$, of the mass, leaves the energy of two modes with a deviation $\sigma_{il}$,
-///
-/// $$ \sigma_{il}^2 = \frac13 \sum_{pq} (h_{pq}^2 + \omega_i^2 \omega_l^2 m_{pq}^2) v_{ip}^2 v_{lq}^2, $$
-///
-/// and mixes mode l into mode i by $\sigma_{il} / \lvert \omega_i^2 - \omega_l^2 \rvert$. A mode is unseen where no sensor reads more of
-/// it than four times what this brings in of others, 1e-8 of what it reads of any, or 1e-8 of its own largest component. Modes that the solver's own rounding does not tell
-/// apart are one group, which is turned by the singular vectors of $S V$ if that leaves some unseen. A last group that may be cut off by
-/// the number taken is left out.
+/// A mode is unseen where no sensor reads more of it than 1e-8 of what it reads of any, or of its own largest component. Modes of the root
+/// of the next are left out with it: a last group cut off by the number taken is no subspace.
 ///
 /// # Errors
 /// [`Error::WrongShape`] for matrices that do not fit.
 pub(super) fn visible(
-    pencil: [&SparseMatrix; 2],
     sensors: &SparseMatrix,
-    (mut modes, mut next): (Modes, Option<f64>),
+    (modes, mut next): (Modes, Option<f64>),
     most: usize,
 ) -> Result<Visible, Error> {
-    let unit = deviations(pencil, &modes)?;
-    let roots: Vec<f64> = modes.omega_squared.iter().copied().chain(next).collect();
-    let (all, last) = ((0..roots.len()).collect::<Vec<_>>(), modes.len() - 1);
-    let is_same = |a: &usize, b: &usize| {
-        let solved = RARE * ASSEMBLED * unit[(*a, last.min(*b))];
-        roots[*b] - roots[*a] <= solved.max(SAME * roots[*b])
-    };
-    let mut groups: Vec<&[usize]> = all.chunk_by(is_same).collect();
-    if next.is_some()
-        && let Some(&[cut, ..]) = groups.pop()
-    {
-        next = Some(roots[cut]);
-        modes = modes.select(&all[..cut]);
-    }
+    let roots = &modes.omega_squared;
+    let is_below = |mode: &usize| next.is_none_or(|next| next - roots[*mode] > SAME * next);
+    let all: Vec<usize> = (0..modes.len()).take_while(is_below).collect();
+    next = roots.as_slice().get(all.len()).copied().or(next);
     let readings = sensors.times(&modes.shapes)?;
-    let [stiffness, mass] = pencil.map(SparseMatrix::half_units);
-    let (sizes, rounded) = (sizes(&readings), deviations([&stiffness, &mass], &modes)?);
-    let mixed = |i: usize, l: usize| {
-        let (apart, part) = ((roots[i] - roots[l]).abs(), rounded[(i, l)]);
-        match apart > part.max(SAME * roots[i].max(roots[l])) {
-            true => RARE * part / apart,
-            false => 0.0,
-        }
+    let sizes = sizes(&readings);
+    let is_seen = |mode: &usize| {
+        let own = modes.shapes.column(*mode).amax();
+        let both = readings
+            .column(*mode)
+            .into_owned()
+            .zip_map(&sizes, |reading, size| {
+                reading.abs() > NOTHING * size.max(own)
+            });
+        both.iter().any(|is_seen| *is_seen)
     };
-    let largest: Vec<f64> = modes.shapes.column_iter().map(|mode| mode.amax()).collect();
-    let limits = DMatrix::from_fn(sizes.len(), modes.len(), |s, i| {
-        let of_others = (0..modes.len()).map(|l| (readings[(s, l)] * mixed(i, l)).powi(2));
-        let nothing = NOTHING * sizes[s].max(largest[i]);
-        of_others.sum::<f64>().sqrt().max(nothing)
-    });
-    let (mut seen, mut unseen) = (Vec::new(), Vec::new());
-    for group in groups {
-        let own = readings.select_columns(group);
-        let split = |own: &DMatrix<f64>| -> (Vec<usize>, Vec<usize>) {
-            let is_seen = |at: &usize| {
-                (0..sizes.len()).any(|s| own[(s, at - group[0])].abs() > limits[(s, *at)])
-            };
-            group.iter().copied().partition(is_seen)
-        };
-        // With as many rows as columns at least the singular vectors span the group.
-        let square = own
-            .clone()
-            .resize_vertically(own.nrows().max(group.len()), 0.0);
-        let found = square.try_svd(false, true, f64::EPSILON, 10_000);
-        let turn = found
-            .and_then(|found| found.v_t)
-            .map(|turn| turn.transpose());
-        let mut parts = split(&own);
-        if let Some(turn) = turn {
-            let turned = split(&(own * &turn));
-            if turned.0.len() < parts.0.len() {
-                parts = turned;
-                let shapes = modes.shapes.select_columns(group) * turn;
-                let into = group[0]..group[0] + group.len();
-                modes.shapes.columns_range_mut(into).copy_from(&shapes);
-            }
-        }
-        seen.extend(parts.0);
-        unseen.extend(parts.1);
-    }
+    let (mut seen, unseen): (Vec<usize>, Vec<usize>) = all.into_iter().partition(is_seen);
     if let Some(&first) = seen.get(most) {
         next = Some(roots[first]);
         seen.truncate(most);
     }
-    let count = seen.len();
     Ok(Visible {
+        seen: seen.len(),
         modes: modes.select(&[seen, unseen].concat()),
-        seen: count,
         next,
     })
 }
 
-/// The $\sigma_{il}$ of [`visible`] for matrices of half units.
+/// The deviations $\sigma_{il}$ that the rounding of entries by up to $h$, of the stiffness, and $m$, of the mass, leaves in the energy of two
+/// modes:
+///
+/// $$ \sigma_{il}^2 = \frac13 \sum_{pq} (h_{pq}^2 + \omega_i^2 \omega_l^2 m_{pq}^2) v_{ip}^2 v_{lq}^2 $$
 fn deviations(pencil: [&SparseMatrix; 2], modes: &Modes) -> Result<DMatrix<f64>, Error> {
     let frequencies = modes.omega_squared.map(f64::sqrt);
     let [stiffness, mass] = pencil.map(|matrix| deviation(matrix, &modes.shapes));
@@ -155,7 +107,7 @@ fn deviation(half_units: &SparseMatrix, shapes: &DMatrix<f64>) -> Result<DMatrix
     Ok(sums.map(|sum| largest * size * size * (sum / 3.0).sqrt()))
 }
 
-/// Standard deviations of the squared frequencies of modes of unit generalized mass by the rounding of a pencil's entries as [`visible`]
+/// Standard deviations of the squared frequencies of modes of unit generalized mass by the rounding of a pencil's entries as [`deviations`]
 /// has it: $\sqrt2 \sigma_{ii}$, for both triangles of a matrix have one rounding.
 ///
 /// # Errors
@@ -193,10 +145,13 @@ pub(super) fn told(
     modes: &Modes,
 ) -> Result<ParameterMatrix, Error> {
     let is_unseen = |mode: &usize| {
-        let part = seen.part(*mode, modes.omega_squared[*mode]);
+        let part = match &seen {
+            Share::Stiffness(own) => own[(*mode, *mode)] / modes.omega_squared[*mode],
+            Share::Mass(own) => own[(*mode, *mode)],
+        };
         part < 0.0 && -part < UNSEEN_SHARE
     };
-    let negative: Vec<usize> = (0..seen.matrix().nrows()).filter(is_unseen).collect();
+    let negative: Vec<usize> = (0..modes.len()).filter(is_unseen).collect();
     if share.matrix().half_unit().is_written() && !negative.is_empty() {
         let shapes = modes.shapes.select_columns(&negative);
         let open = deviation(&share.matrix().half_units(), &shapes)?;

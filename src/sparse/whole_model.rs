@@ -4,7 +4,7 @@ use super::factorization::{FactorizationPlan, Work};
 use super::free::{bracket, slack};
 use super::matrix::{ASSEMBLED, GIVEN};
 use super::modes::{CountedModes, FINITE, Flexibility, modes_at_most};
-use super::place::{Deflections, Place};
+use super::place::Place;
 use super::sensor_model::{Pair, SensorModel};
 use super::share::{Share, WholeShare};
 use super::visibility::rows_with_sensor;
@@ -26,15 +26,6 @@ pub struct WholeParameter {
     pub share: WholeShare,
     /// Bounds on its factor, if any.
     pub range: Option<Bounds>,
-}
-
-/// Size of the basis in which changes of a whole model are followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BasisSize {
-    /// Number of exact modes, the lowest.
-    pub modes: usize,
-    /// Most residual vectors behind them for each parameter.
-    pub residual_vectors: usize,
 }
 
 /// A structure at all its degrees of freedom.
@@ -347,7 +338,7 @@ impl WholeModel {
     /// Analysis for the loops without any condensation: the lowest modes of the whole model as the sensors see them, and every
     /// parameter's share $V^t K_e V$ or $V^t M_e V$ with the whole shapes.
     ///
-    /// Behind the modes stand residual vectors, and rigid-body modes of a free structure where a mass is a parameter: only a change of
+    /// Behind `count` modes stand rigid-body modes of a free structure where a mass is a parameter: only a change of
     /// mass couples them with vibrations. `sensors` reads the sensors' motions off the model's, $q_G = R q$ (sensors × DOF).
     ///
     /// # Errors
@@ -358,10 +349,11 @@ impl WholeModel {
     /// Two unit masses in a row on springs of 3 and 2 from a wall. The second spring was built with 3.
     ///
     /// ```rust
+    /// use corfem::method::analysis::Analysis;
     /// use corfem::method::modes::solve;
     /// use corfem::method::outer_loop::{Settings, correlate};
     /// use corfem::method::sorting::pair_modes;
-    /// use corfem::sparse::{BasisSize, Pair, ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
+    /// use corfem::sparse::{Pair, ParameterMatrix, SparseMatrix, WholeModel, WholeParameter, WholeShare};
     /// use nalgebra::{DMatrix, dmatrix};
     ///
     /// let sparse = |matrix| SparseMatrix::of_dense("matrix", &matrix);
@@ -372,14 +364,14 @@ impl WholeModel {
     /// let model = WholeModel::new(sparse(stiffness(2.0))?, sparse(one.clone())?, vec![second])?;
     ///
     /// let test = solve(&stiffness(3.0), &one, 2)?;
-    /// let (sensors, size) = (sparse(one)?, BasisSize { modes: 2, residual_vectors: 0 });
-    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, &test, Pair::by(|of| pair_modes(of.cross)), size);
+    /// let sensors = sparse(one)?;
+    /// let analyze = |factors: &[f64]| model.analyze(factors, &sensors, &test, Pair::by(|of| pair_modes(of.cross)), 2);
     ///
     /// // The basis: its shapes at the sensors, their squared frequencies, and the spring's share.
     /// let first = analyze(&[1.0])?;
     /// let ParameterMatrix::Stiffness(share) = &first.shares()[0] else { unreachable!() };
     /// let expected = first.basis().tr_mul(&(2.0 * spring * first.basis()));
-    /// assert!((share - expected).amax() < 1e-12 && first.omega_squared()[0] < first.test().omega_squared()[0]);
+    /// assert!((share - expected).amax() < 1e-12 && first.exact().modes.omega_squared()[0] < first.test().omega_squared()[0]);
     ///
     /// let settings = Settings { error_sum_tolerance: 1e-4, later_inner_tolerance: 1e-4, ..Settings::default() };
     /// let found = correlate(analyze, &[None], &settings.for_modes(2), |_, _| true)?;
@@ -392,20 +384,12 @@ impl WholeModel {
         sensors: &SparseMatrix,
         test: &Modes,
         pair: Pair,
-        size: BasisSize,
+        count: usize,
     ) -> Result<SensorModel, Error> {
-        // Only exact slopes want more modes than the basis has.
-        let most = match size.residual_vectors {
-            0 => size.modes.max(2 * test.len()),
-            _ => size.modes,
-        };
-        let whole = self.exactly(factors, sensors, size.modes..=most, None)?;
-        let deflections = Deflections::Each(size.residual_vectors);
-        let model = SensorModel::of_whole(whole, size.modes, test, pair, deflections)?;
-        match size.residual_vectors {
-            0 => model.with_slopes(),
-            _ => Ok(model),
-        }
+        // Exact slopes want more modes.
+        let most = count.max(2 * test.len());
+        let whole = self.exactly(factors, sensors, count..=most, None)?;
+        SensorModel::of_whole(whole, count, test, pair)?.with_slopes()
     }
 
     /// Exact analysis seen by sensors that further looks can be taken at, with at least and at most so many modes, sought from shapes

@@ -10,8 +10,8 @@ use crate::method::error_sum::{Errors, ModeError, mode_errors};
 use crate::method::linear_algebra::check_shape;
 use crate::method::model::Model;
 use crate::method::modes::Modes;
-use crate::method::sorting::{Pairing, pair_modes};
-use crate::sparse::{Candidates, ModeWeight, SensorModel, cosines, is_held, is_one_root};
+use crate::method::sorting::Pairing;
+use crate::sparse::{Basis, Candidates, ModeWeight, SensorModel, cosines, is_held, is_one_root};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -198,7 +198,7 @@ impl Comparison {
         let candidates = Candidates {
             cross: &cross,
             modes: &exact.modes,
-            parts: None,
+            moves: None,
         };
         let partners = self.model.pair.of(candidates)?.analysis_mode;
         for (lone, partner) in self.test.lone.iter_mut().zip(partners) {
@@ -208,43 +208,60 @@ impl Comparison {
         Ok(self)
     }
 
-    /// The comparison that follows from this one at `factors` on its shares, exact in the basis of the model.
-    pub(crate) fn followed(&self, factors: &[f64]) -> Result<Self, Error> {
-        let (model, generalized) = self.model.followed(factors)?;
-        let mut test = self.test.clone();
+    /// The comparisons of the structure in a basis about this one, whose factors are `from`; with slopes corrected to those of this one where
+    /// its Jacobian is given with weights.
+    ///
+    /// # Errors
+    /// Errors of [`jacobian`](super::residuals::jacobian) in the basis.
+    pub(crate) fn within(
+        &self,
+        basis: Basis,
+        from: &[f64],
+        exact: Option<(&DMatrix<f64>, &[ModeWeight])>,
+    ) -> Result<impl Fn(&[f64]) -> Result<Self, Error> + use<>, Error> {
+        let (mut test, modes, pair) = (
+            self.test.clone(),
+            self.model.test.clone(),
+            self.model.pair.clone(),
+        );
         if !test.lone.is_empty() && test.partner_shapes.is_none() {
-            // A partner continues as the changed mode with the largest component of it in the coordinates of the modes, in which the mass is one.
             let partners: Vec<usize> = test.lone.iter().map(|lone| lone.partner).collect();
-            let exact = generalized.columns(0, model.exact.modes.len());
-            let became = pair_modes(&exact.select_rows(&partners).transpose())?;
-            let became = became.analysis_mode.into_iter();
-            test.lone
-                .iter_mut()
-                .zip(became)
-                .for_each(|(lone, mode)| lone.partner = mode);
+            let shapes = &self.model.exact.modes.shapes;
+            test.partner_shapes = Some(shapes.select_columns(&partners));
         }
-        let correction = self.correction.as_ref().map(|correction| Correction {
-            moved: DVector::from_column_slice(factors).map(f64::ln),
-            slopes: Arc::clone(&correction.slopes),
-        });
-        let shapes = test.partner_shapes.take();
-        let followed = Self {
-            model,
-            test,
-            correction,
+        let at = move |change: &[f64], correction| {
+            let own = Self {
+                model: basis.at(change, &modes, &pair)?,
+                test: test.clone(),
+                correction,
+            };
+            match &test.partner_shapes {
+                Some(shapes) => own.followed_by_shape(shapes.clone()),
+                None => Ok(own),
+            }
         };
-        match shapes {
-            Some(shapes) => followed.followed_by_shape(shapes),
-            None => Ok(followed),
-        }
-    }
-
-    /// The comparisons that follow from this one, of a model at some `factors`, at others in the basis of the model.
-    pub(crate) fn about(&self, factors: &[f64]) -> impl Fn(&[f64]) -> Result<Self, Error> {
-        move |at| {
-            let change = at.iter().zip(factors).map(|(at, from)| at / from);
-            self.followed(&change.collect::<Vec<_>>())
-        }
+        let slopes = match exact {
+            Some((jacobian, weights)) => {
+                let own = at(&vec![1.0; from.len()], None)?;
+                Some(Arc::new(
+                    jacobian - super::residuals::jacobian(&own, weights)?,
+                ))
+            }
+            None => None,
+        };
+        let from = from.to_vec();
+        Ok(move |factors: &[f64]| {
+            let change: Vec<f64> = factors
+                .iter()
+                .zip(&from)
+                .map(|(at, from)| at / from)
+                .collect();
+            let correction = slopes.clone().map(|slopes| Correction {
+                moved: DVector::from_column_slice(&change).map(f64::ln),
+                slopes,
+            });
+            at(&change, correction)
+        })
     }
 
     /// True if a compared mode meets another one that is not compared together with it: apart, but by so little that each keeps its
@@ -270,31 +287,6 @@ impl Comparison {
             model: self.model.with_slopes()?,
             ..self
         })
-    }
-
-    /// This comparison in another basis for the same modes.
-    pub(crate) fn with_model(&self, model: SensorModel) -> Self {
-        Self {
-            model,
-            test: self.test.clone(),
-            correction: None,
-        }
-    }
-
-    /// The comparison in another basis, with slopes corrected to those of this one, `jacobian`, in which these weights are.
-    pub(crate) fn in_basis(
-        &self,
-        model: SensorModel,
-        jacobian: &DMatrix<f64>,
-        weights: &[ModeWeight],
-    ) -> Result<Self, Error> {
-        let mut other = self.with_model(model);
-        let slopes = jacobian - super::residuals::jacobian(&other, weights)?;
-        other.correction = Some(Correction {
-            moved: DVector::zeros(slopes.ncols()),
-            slopes: Arc::new(slopes),
-        });
-        Ok(other)
     }
 
     /// The exact modes with those of every group turned to the test's.
@@ -342,11 +334,11 @@ impl Comparison {
         };
         let mut changed = self.model.changed_modes(&state)?;
         for (e, modes) in changed.iter_mut().enumerate() {
-            for (slopes, mut shape) in self.model.beyond.iter().zip(modes.shapes.column_iter_mut())
-            {
-                if let Some(slopes) = slopes {
-                    shape.axpy(DERIVATIVE_STEP, &slopes.column(e), 1.0);
-                }
+            let known = self.model.slopes.iter().enumerate();
+            for (mode, slopes) in known.filter_map(|own| Some((own.0, own.1.as_ref()?))) {
+                let mut shape = modes.shapes.column_mut(mode);
+                shape.copy_from(&state.modes.shapes.column(mode));
+                shape.axpy(DERIVATIVE_STEP, &slopes.column(e), 1.0);
             }
         }
         changed.iter().map(change).collect()

@@ -9,7 +9,7 @@ use super::second_order::SecondOrder;
 use crate::method::error::{Error, positive};
 use crate::method::linear_algebra::check_length;
 use crate::method::step::Bounds;
-use crate::sparse::{Deflections, ModeWeight, solve_positive};
+use crate::sparse::{ModeWeight, solve_positive};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -256,7 +256,7 @@ impl<'a> Problem<'a> {
     ) -> Result<Option<Iterate>, E> {
         let factors = self.within(&factors);
         let comparison = analyze(&factors)?;
-        let count = comparison.model.shares.len();
+        let count = comparison.model.moves.ncols();
         check_length("parameter factors", factors.len(), count)?;
         let residuals = residuals(&comparison, self.weights)?;
         let (pull, held) = self.pull(&factors);
@@ -401,13 +401,17 @@ impl<'a> Problem<'a> {
         first: &[f64],
         (left, enough): (f64, f64),
     ) -> Result<(f64, Vec<f64>), Error> {
-        let mut place = self.first_at(analyze, first)?;
+        let (mut place, mut foretold) = (self.first_at(analyze, first)?, 0.0);
         let mut damping = Damping::FIRST;
         for _ in 0..self.settings.trials {
             let Some((promised, step)) = self.foretold(&place, second_order, damping.now)? else {
                 break;
             };
-            if promised <= left || place.objective < enough {
+            if place.objective < enough {
+                break;
+            }
+            if promised <= left && place.objective - promised >= enough {
+                foretold = promised.max(0.0);
                 break;
             }
             let next = self.place_at(analyze, place.after(&step), place.objective);
@@ -420,7 +424,7 @@ impl<'a> Problem<'a> {
                 None => damping.more(),
             }
         }
-        Ok((place.objective, place.factors))
+        Ok((place.objective - foretold, place.factors))
     }
 
     /// The damped step and the fall that it promises, with the second order in the curvature where its estimate is used.
@@ -483,18 +487,14 @@ impl<'a> Problem<'a> {
             _ => (damping, LEFT * promised),
         };
         let model = &place.comparison.model;
-        let along = Deflections::Along {
-            direction: step.as_slice(),
-            modes: &model.exact.pairing.analysis_mode,
-            further,
-            weights: &place.misfits(),
-        };
-        let basis = model.in_basis(along).ok()?;
-        let basis = place
-            .comparison
-            .in_basis(basis, &place.jacobian, self.weights)
+        let modes = place.comparison.partners();
+        let basis = model
+            .in_basis(None, |whole| {
+                whole.along(step, &modes, (further, &place.misfits()))
+            })
             .ok()?;
-        let mut follow = basis.about(&place.factors);
+        let exact = Some((&place.jacobian, self.weights));
+        let mut follow = place.comparison.within(basis, &place.factors, exact).ok()?;
         let (logs, holding) = (
             logs_of(&place.factors),
             damping * place.curvature.diagonal(),
@@ -569,12 +569,13 @@ impl Iterate {
         })
     }
 
-    /// Size of the residuals of every test mode with a shape.
+    /// Size of the residuals of every test mode, of those without a shape last.
     fn misfits(&self) -> Vec<f64> {
-        let rows = 1 + self.comparison.model.test.shapes.nrows();
-        let own = self.residuals.as_slice().chunks(rows);
+        let (rows, modes) = self.comparison.model.test.shapes.shape();
+        let (own, lone) = self.residuals.as_slice().split_at(modes * (1 + rows));
         let size = |own: &[f64]| own.iter().map(|value| value * value).sum::<f64>().sqrt();
-        own.take(self.comparison.model.test.len())
+        own.chunks(1 + rows)
+            .chain(lone.chunks(1))
             .map(size)
             .collect()
     }

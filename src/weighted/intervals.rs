@@ -2,21 +2,16 @@
 
 use super::comparison::Comparison;
 use super::gauss_newton::{Problem, WeightedSettings, logs_of};
-use super::identifiability::{MOSTLY_PRIOR, NORMAL_95, covariance, information, tikhonov};
+use super::identifiability::{MOSTLY_PRIOR, NORMAL_95, covariance, tikhonov};
 use super::residuals::{jacobian, residuals};
 use super::second_order::SecondOrder;
 use crate::method::error::Error;
 use crate::method::linear_algebra::check_length;
 use crate::method::step::Bounds;
-use crate::sparse::{ModeWeight, gram, solve_positive};
+use crate::sparse::{ModeWeight, gram};
 use nalgebra::DVector;
 use serde::Serialize;
-use statrs::function::erf::erfc;
 
-/// Part of the tests in which an interval by slopes may miss the truth before the objective itself is asked.
-const MOST_MISSED: f64 = 0.07;
-/// Difference of two deviations, relative to one of them, up to which that between them is their mean.
-const ALIKE: f64 = 0.05;
 /// Largest distance of the root of twice the rise of the objective from [`NORMAL_95`], relative to it, at an end that is sought: 94.6 to
 /// 95.4 %.
 const CLOSE: f64 = 0.02;
@@ -24,10 +19,13 @@ const CLOSE: f64 = 0.02;
 const TRIES: usize = 30;
 /// Distance of two places, relative to that of the farther one from the optimum, between which the objective jumps past an end.
 const JUMP: f64 = 1e-4;
-/// Most parameters whose intervals are followed beyond their slopes: each takes some eigensolutions in a basis.
+/// Most parameters whose intervals are followed beyond their slopes: each takes some nine analyses, and each of these the normal equations of all.
 pub(crate) const MOST_FOLLOWED: usize = 200;
-/// Fall of the objective beside a fixed factor that may be left: at the ends it moves the root of twice the rise by a thousandth of itself.
-const LEFT: f64 = 4e-3;
+/// Fall of the objective beside a fixed factor that is foretold, and not looked at: wrong by a tenth of itself it moves the root of twice the
+/// rise at the ends by three thousandths.
+const LEFT: f64 = 0.1;
+/// Fall below the objective at the factors that no rounding makes.
+const LOWER: f64 = 4e-3;
 
 /// Reason why a parameter has no interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -72,13 +70,11 @@ impl Withheld {
 /// 95 % intervals about the factors at the optimum of weighted steps, with the deviations of the measurement `widening` times as large as
 /// by the weights, and the prior's as they are. None of a parameter at a bound, and of one that is known mostly from the prior.
 ///
-/// By the slopes, with the covariance $C$ of the logarithms ([`identifiability`](super::identifiability::identifiability)), the interval is $c_e e^{\pm 1.96 s_e}$. It holds as far as
-/// $s_e$ is the same within it. Where it changes along the way, on which the other logarithms move by $C_{ie}/C_{ee}$ of the one, an end is
-/// $r = \int \mathrm dt/s_e(t)$ deviations away, here by Simpson's rule or, of deviations within 5 %, their mean, and the truth beyond it
-/// in a part $\Phi(-r)$ of the tests. Where both
-/// parts together exceed 7 %, and there are no more than 200 parameters, the ends are where the objective itself, the lowest that the other parameters allow, is higher by
-/// $\frac12 1.96^2$ (the profile likelihood). An end that is not found withholds the interval, and so does an objective lower than at the
-/// factors, which then are no minimum.
+/// The ends are where the objective, the lowest that the other parameters allow, is higher by $\frac12 1.96^2$ than at the factors (the profile
+/// likelihood). They are sought from $c_e e^{\pm 1.96 s_e}$, with the covariance $C$ of the logarithms
+/// ([`identifiability`](super::identifiability::identifiability)), where the other logarithms have moved by $C_{ie}/C_{ee}$ of the one. An
+/// end that is not found withholds the interval, and so does an objective lower than at the factors, which then are no minimum. With more
+/// than 200 parameters the interval is the one from which the ends are sought.
 ///
 /// With a widening $w$ that objective is $\frac{1}{2w^2}(\sum r^2 + \sum (x_e/\tau_e)^2) + \frac12(1 - w^{-2}) \sum ((x_e - \hat x_e)/\tau_e)^2$
 /// of the logarithms $x$: it has its minimum at the factors too, and all of the prior's curvature. No end is beyond the prior's own 95 %
@@ -99,7 +95,10 @@ pub fn intervals(
     widening: f64,
 ) -> Result<Vec<Result<Bounds, Withheld>>, Error> {
     check_length("ranges", ranges.len(), factors.len())?;
-    let (model, priors) = (analyze(factors)?, settings.priors(factors.len()));
+    let (model, priors) = (
+        analyze(factors)?.with_slopes()?,
+        settings.priors(factors.len()),
+    );
     let weight = |own: &ModeWeight| ModeWeight {
         frequency: own.frequency / widening,
         shape: own.shape / widening,
@@ -130,29 +129,16 @@ pub fn intervals(
             return Err(Withheld::MostlyPrior);
         }
         // Logarithms of all factors for a change of this one, which is held there.
-        let path = covariance.column(e) / covariance[(e, e)];
         let by_slope = NORMAL_95 * deviations[e];
-        // The deviation at the optimum over that elsewhere; none where the model cannot be analyzed.
-        let ratio = |log: f64| {
-            let there = deviation(analyze, &along(factors, &path, log), e, &weights, &tikhonov);
-            there.map_or(0.0, |there| deviations[e] / there)
-        };
-        let missed = |log: f64| {
-            let end = ratio(log);
-            let mean = match (end - 1.0).abs() <= ALIKE {
-                true => 0.5 * (1.0 + end),
-                false => (1.0 + 4.0 * ratio(0.5 * log) + end) / 6.0,
-            };
-            0.5 * erfc(NORMAL_95 * mean / 2.0_f64.sqrt())
-        };
-        let is_straight = || missed(-by_slope) + missed(by_slope) <= MOST_MISSED;
-        let ends = if factors.len() > MOST_FOLLOWED || is_straight() {
+        let ends = if factors.len() > MOST_FOLLOWED {
             [-by_slope, by_slope]
         } else {
-            // The next place begins on the way to the last one found.
-            let mut way = path.clone();
-            let mut rise = |log: f64| profile.rise(e, &mut way, log);
-            [end(&mut rise, -by_slope)?, end(&mut rise, by_slope)?]
+            // On either side the first way is by slopes, the next through the last place within.
+            let sought = |first: f64| {
+                let mut way = covariance.column(e) / covariance[(e, e)];
+                end(&mut |log| profile.rise(e, &mut way, log), first)
+            };
+            [sought(-by_slope)?, sought(by_slope)?]
         };
         Ok(within_prior(factors[e].ln(), ends, NORMAL_95 * priors[e]))
     };
@@ -189,7 +175,7 @@ impl Profile<'_> {
             upper: first[e] * (1.0 + 4.0 * f64::EPSILON),
         });
         let analyze = &mut |at: &[f64]| (self.analyze)(at);
-        let enough = self.least - LEFT;
+        let enough = self.least - LOWER;
         let (objective, found) = Problem::new(first.len(), &ranges, self.weights, &self.settings)
             .map(|problem| problem.held_at(logs_of(self.factors), self.held.clone()))
             .and_then(|problem| {
@@ -200,23 +186,13 @@ impl Profile<'_> {
         if objective < enough {
             return Err(Withheld::Lower);
         }
-        *way = (logs_of(&found) - logs_of(self.factors)) / log;
-        Ok((2.0 * (objective - self.least)).max(0.0).sqrt() - NORMAL_95)
+        let rise = (2.0 * (objective - self.least)).max(0.0).sqrt() - NORMAL_95;
+        // Beyond the end the lowest place found may be another valley's.
+        if rise < 0.0 {
+            *way = (logs_of(&found) - logs_of(self.factors)) / log;
+        }
+        Ok(rise)
     }
-}
-
-/// The deviation of a parameter's logarithm at factors.
-fn deviation(
-    analyze: &dyn Fn(&[f64]) -> Result<Comparison, Error>,
-    factors: &[f64],
-    e: usize,
-    weights: &[ModeWeight],
-    tikhonov: &DVector<f64>,
-) -> Result<f64, Error> {
-    let information = information(&jacobian(&analyze(factors)?, weights)?, tikhonov);
-    let mut own = DVector::zeros(factors.len());
-    own[e] = 1.0;
-    Ok(solve_positive("information", &information, &own)?[e].sqrt())
 }
 
 /// Ends of an interval at these distances of a logarithm, no farther from zero than a `prior` unless the logarithm itself is.
@@ -227,30 +203,25 @@ fn within_prior(log: f64, ends: [f64; 2], prior: f64) -> Bounds {
     }
 }
 
-/// Place where `rise`, less than zero at zero, is zero to within [`CLOSE`]: from `first` outward, then between.
+/// Place where `rise`, less than zero at zero, is zero: from `first` outward, then between, until it is so to within [`CLOSE`], and there on
+/// the line through the place before.
 fn end(rise: &mut dyn FnMut(f64) -> Result<f64, Withheld>, first: f64) -> Result<f64, Withheld> {
-    let (mut inner, mut outer) = ((0.0, -NORMAL_95), (first, rise(first)?));
+    let (mut inner, mut outer, mut log) = ((0.0, -NORMAL_95), None, first);
     for _ in 0..TRIES {
-        if outer.1.abs() <= CLOSE * NORMAL_95 {
-            return Ok(outer.0);
+        let own = (log, rise(log)?);
+        let on_line = |other: (f64, f64)| own.0 - own.1 * (own.0 - other.0) / (own.1 - other.1);
+        if own.1.abs() <= CLOSE * NORMAL_95 {
+            return Ok(on_line(inner));
         }
-        if outer.1 < 0.0 {
-            (inner, outer) = (outer, (1.5 * outer.0, rise(1.5 * outer.0)?));
-            continue;
+        match own.1 < 0.0 {
+            true => inner = own,
+            false => outer = Some(own),
         }
-        let log = inner.0 - inner.1 * (outer.0 - inner.0) / (outer.1 - inner.1);
-        let next = (log, rise(log)?);
-        if next.1.abs() <= CLOSE * NORMAL_95 {
-            return Ok(next.0);
-        }
-        if next.1 < 0.0 {
-            inner = next;
-        } else {
-            outer = next;
-        }
-        if (outer.0 - inner.0).abs() <= JUMP * outer.0.abs() {
-            break;
-        }
+        log = match outer {
+            None => 1.5 * own.0,
+            Some((far, _)) if (far - inner.0).abs() <= JUMP * far.abs() => break,
+            Some((far, above)) => inner.0 - inner.1 * (far - inner.0) / (above - inner.1),
+        };
     }
     Err(Withheld::NoEnd)
 }

@@ -33,7 +33,7 @@ impl Comparison {
             &mut model.test.shapes,
             weights,
         ];
-        shapes.into_iter().chain(model.beyond.iter_mut().flatten())
+        shapes.into_iter().chain(model.slopes.iter_mut().flatten())
     }
 
     fn largest(&self, j: usize) -> f64 {
@@ -59,7 +59,7 @@ impl Comparison {
 
     /// This comparison with one more sensor of the same noise, which reads this of the basis (1 × N) and what the model says of the test; `beyond` is what
     /// modes beyond the basis add there to the slopes that are known, of modes in ascending order.
-    pub(crate) fn with_sensor(&self, basis: DMatrix<f64>, beyond: Vec<DMatrix<f64>>) -> Self {
+    pub(crate) fn with_sensor(&self, basis: DMatrix<f64>, slopes: Vec<DMatrix<f64>>) -> Self {
         let exact = &self.model.exact;
         let reading = |_, j| {
             let members = members(
@@ -76,7 +76,7 @@ impl Comparison {
             basis.columns(0, exact.modes.len()).into_owned(),
             reading.map(|_| 1.0),
         );
-        let rows = [basis, modes, reading, ones].into_iter().chain(beyond);
+        let rows = [basis, modes, reading, ones].into_iter().chain(slopes);
         let (mut own, last) = (self.clone(), self.model.basis.nrows());
         for (matrix, row) in own.by_sensors().zip(rows) {
             *matrix = std::mem::take(matrix).insert_row(last, 0.0);

@@ -150,7 +150,7 @@ impl Misfit {
         priors: &[f64],
         at_bound: &[usize],
     ) -> Result<Self, Error> {
-        let count = comparison.model.shares.len();
+        let count = comparison.model.moves.ncols();
         check_length("prior deviations", priors.len(), count)?;
         let chi_squared = residuals(comparison, weights)?.norm_squared();
         let free: Vec<usize> = (0..count).filter(|e| !at_bound.contains(e)).collect();

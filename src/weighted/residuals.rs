@@ -4,12 +4,11 @@ use crate::method::analysis::State;
 use crate::method::error::Error;
 use crate::method::modes::Modes;
 use crate::method::sorting::Pairing;
-use crate::sparse::{ModeWeight, SensorModel, check_weights, finite, is_held};
+use crate::sparse::{ModeWeight, Pair, check_weights, finite, pair_cheaply};
 use crate::weighted::close_modes::{Nearest, members, nearest};
 use crate::weighted::comparison::{Comparison, Correction, Test};
 use crate::weighted::noise::Noise;
-use nalgebra::{DMatrix, DVector, RowDVector};
-use std::collections::HashMap;
+use nalgebra::{DMatrix, DVector};
 
 /// Standard deviations unless others are known: 0.5 % of a frequency, 2 % of a shape's largest component. They are about twice
 /// [`Noise::USUAL`], to cover errors that repeat in a test, such as those of supports and of the places of sensors.
@@ -76,6 +75,29 @@ pub(crate) fn residuals_of(
     residuals
 }
 
+/// Rule that gives every test mode the partner with which all residuals are least, as the likelihood of factors has it whatever the pairs; of
+/// shapes alone, the most alike.
+pub(crate) fn pair_by_residuals(test: &Modes, weights: &[ModeWeight]) -> Pair {
+    let (weights, roots) = (weights.to_vec(), test.omega_squared.clone());
+    let sizes: Vec<f64> = test
+        .shapes
+        .column_iter()
+        .map(|own| own.norm() / own.amax())
+        .collect();
+    Pair::by(move |of| {
+        let costs = of.cross.map_with_location(|i, j, close| {
+            let apart = 1.0 - close * close;
+            if of.moves.is_none() {
+                return apart;
+            }
+            let ratio = (of.modes.omega_squared[i] / roots[j]).sqrt() - 1.0;
+            (weights[j].frequency * ratio).powi(2) + (weights[j].shape * sizes[j]).powi(2) * apart
+        });
+        let partners = pair_cheaply(&costs)?.0.into_iter().flatten().collect();
+        Ok(Pairing::signed(partners, of.cross))
+    })
+}
+
 /// The `members` among shapes as test mode `j` is compared with them, every component over its deviation, and their combination nearest
 /// to the test shape of unit largest component.
 pub(super) fn compared(
@@ -123,34 +145,29 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
     } = comparison;
     let (test, State { modes, pairing, .. }) = (&model.test, &model.exact);
     check_weights(weights, test.len() + lone.len())?;
-    let slopes = Slopes::new(model);
-    let (rows, count) = (1 + test.shapes.nrows(), model.shares.len());
+    let (rows, count) = (1 + test.shapes.nrows(), model.moves.ncols());
     let roots = &modes.omega_squared;
-    let mut all = model.compared();
-    all.extend(lone.iter().map(|lone| lone.partner));
-    let couplings: HashMap<_, _> = all.iter().copied().zip(model.couplings(&all)).collect();
+    // Of the frequency of mode i, which is `ratio` times the test's.
+    let of_frequency = |weight: &ModeWeight, ratio: f64, i: usize| {
+        0.5 * weight.frequency * ratio * model.moves.row(i)
+    };
+    let compared_modes = model.compared();
+    let slopes: Vec<DMatrix<f64>> = compared_modes.iter().map(|&i| model.slopes_of(i)).collect();
     let mut jacobian = DMatrix::zeros(rows * test.len() + lone.len(), count);
     for (j, of) in weights.iter().enumerate().take(test.len()) {
         let members = members(roots, pairing, together, j);
-        let (v, nearest) = compared(&model.basis, comparison, &members, j);
+        let (v, nearest) = compared(&modes.shapes, comparison, &members, j);
         let Nearest {
             inverse,
             shares,
             apart,
         } = nearest;
+        let ratio = (roots[members[0]] / test.omega_squared[j]).sqrt();
+        jacobian.set_row(rows * j, &of_frequency(of, ratio, members[0]));
         let scale = comparison.test.component_weights.column(j);
-        for (place, &i) in members.iter().enumerate() {
-            let couplings = couplings[&i].clone();
-            if place == 0 {
-                let ratio = (slopes.k[i] / test.omega_squared[j]).sqrt();
-                let own = slopes.of_frequency(of, ratio, i, &couplings);
-                jacobian.set_row(rows * j, &own);
-            }
+        for (place, i) in members.iter().enumerate() {
             // dv, over the components' deviations, and what becomes of it in the residuals.
-            let mut moved = &model.basis * slopes.added(i, &members, couplings);
-            if let Some(beyond) = &model.beyond[i] {
-                moved += beyond;
-            }
+            let mut moved = slopes[compared_modes.partition_point(|own| own < i)].clone();
             for mut moved in moved.column_iter_mut() {
                 moved.component_mul_assign(&scale);
             }
@@ -161,52 +178,11 @@ pub fn jacobian(comparison: &Comparison, weights: &[ModeWeight]) -> Result<DMatr
         }
     }
     for (place, (lone, weight)) in lone.iter().zip(&weights[test.len()..]).enumerate() {
-        let (ratio, i) = (1.0 + lone.error(modes), lone.partner);
-        let row = slopes.of_frequency(weight, ratio, i, &couplings[&i]);
+        let row = of_frequency(weight, 1.0 + lone.error(modes), lone.partner);
         jacobian.set_row(rows * test.len() + place, &row);
     }
     if let Some(correction) = correction {
         jacobian += &*correction.slopes;
     }
     finite("Jacobian", jacobian)
-}
-
-/// Slopes of modes by the logarithm of every parameter's factor, in the basis of a model.
-struct Slopes {
-    /// Squared circular frequencies of all shapes of the basis, zero of rigid-body modes.
-    k: DVector<f64>,
-}
-
-impl Slopes {
-    fn new(model: &SensorModel) -> Self {
-        let size = model.basis.ncols();
-        Self {
-            k: model.omega_squared.clone().resize_vertically(size, 0.0),
-        }
-    }
-
-    /// Slopes (1 × p) of the frequency of mode i, which is `ratio` times the test's, from its couplings.
-    fn of_frequency(
-        &self,
-        weight: &ModeWeight,
-        ratio: f64,
-        i: usize,
-        couplings: &DMatrix<f64>,
-    ) -> RowDVector<f64> {
-        let scale = weight.frequency * ratio / (2.0 * self.k[i]);
-        scale * couplings.row(i)
-    }
-
-    /// The share of every other shape of the basis that each parameter adds to mode i (N × p), but of the `members` of its group.
-    fn added(&self, i: usize, members: &[usize], mut couplings: DMatrix<f64>) -> DMatrix<f64> {
-        let k = &self.k;
-        for (r, mut row) in couplings.row_iter_mut().enumerate() {
-            if is_held(k[i], k[r]) || members.contains(&r) {
-                row.fill(0.0);
-            } else {
-                row /= k[i] - k[r];
-            }
-        }
-        couplings
-    }
 }

@@ -1,6 +1,7 @@
 //! Strategies of inner-loop problems and settings, and the loop told again from its own record.
 
 use crate::prelude::*;
+use corfem::sparse::UNSEEN_SHARE;
 
 /// All rules of the step.
 pub const STEP_RULES: [StepRule; 4] = [
@@ -150,17 +151,34 @@ pub fn inner_for_modes(inner: InnerSettings, modes: usize) -> InnerSettings {
     settings.for_modes(modes).inner
 }
 
-/// The verdict on a correlation that began at this model.
+/// The verdict on a correlation of this model.
 pub fn verdict_of(found: &Correlation, first: &Model, ranges: &[Option<Bounds>]) -> Verdict {
-    let seen = first.test_shares().iter();
-    let seen = seen.map(|share| share.diagonal().amax()).collect_vec();
     let best = found.best_check();
     let each = mode_errors(&best.modes, &best.pairing, first.test()).unwrap();
-    Judged {
-        seen: &seen,
-        ranges,
+    let each = each.into_iter().map(ModeErrors::from).collect_vec();
+    let end = (End::of_loops(found, false), found.converged);
+    let (sums, factors) = ((best.errors.sum(), &each[..]), &found.best_factors);
+    let shares = first.test_shares().iter().zip(factors).enumerate();
+    let unseen =
+        shares.filter(|(_, (share, factor))| *factor * share.diagonal().amax() < UNSEEN_SHARE);
+    Verdict {
+        unseen: unseen.map(|own| own.0).collect(),
+        ..Verdict::new(end, sums, factors, ranges)
     }
-    .of_loops(found, &each, Errors::sum, false)
+}
+
+/// Parameters by the change $|c - 1|$ that the unlimited factors (13) of the first iteration ask for, the largest first.
+pub fn by_factor(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<Suspect>, Error> {
+    let suspect = |(parameter, factor): (usize, f64)| Suspect {
+        parameter,
+        factor,
+        evidence: (factor - 1.0).abs(),
+    };
+    let factors = first_factors(analysis, settings)?.into_iter().enumerate();
+    let mut suspects = factors.map(suspect).collect_vec();
+    // Parameters that symmetry makes alike differ by round-off; they stay in order.
+    suspects.sort_by(|a, b| (b.evidence as f32).total_cmp(&(a.evidence as f32)));
+    Ok(suspects)
 }
 
 /// State of a model at factors by an eigensolution in its modal coordinates, each mode in the place of the exact mode that it is most like.

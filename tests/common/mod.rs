@@ -193,14 +193,6 @@ pub fn diagonal<T: ComplexField>(values: impl AsRef<[T]>) -> DMatrix<T> {
     DMatrix::from_diagonal(&DVector::from_column_slice(values.as_ref()))
 }
 
-/// The lowest modes of a whole model alone.
-pub fn modes_alone(modes: usize) -> BasisSize {
-    BasisSize {
-        modes,
-        residual_vectors: 0,
-    }
-}
-
 /// A parameter of a whole model without bounds.
 pub fn whole_parameter(name: impl Display, share: WholeShare) -> WholeParameter {
     WholeParameter {

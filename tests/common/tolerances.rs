@@ -241,6 +241,9 @@ pub const LEAST_PARAMETER_COVERAGE: f64 = 0.90;
 pub const LEAST_COVER: f64 = 0.896;
 /// Coverage over three hundred tests in a golden, in percent: one at an interval's end may fall on its other side elsewhere.
 pub const GOLDEN_COVERAGE: f64 = 0.34;
+/// The same where one parameter alone moves: by a line through places within two percent of an end, whose distance from the curve is of the
+/// square of that.
+pub const LINE_TO_AN_END: f64 = 2e-3;
 /// Root of twice the rise of the objective at the end of an interval: within two percent of 1.96 by a lowest objective that is itself within
 /// half the square of a hundredth, beside one found ten times closer.
 pub const END_OF_INTERVAL: f64 = 0.03;

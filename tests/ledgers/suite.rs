@@ -91,7 +91,7 @@ fn every_mutant_left_out_names_a_file_and_a_function() {
     let text = fs::read_to_string(root().join(".cargo/mutants.toml")).unwrap();
     let table: toml::Table = toml::from_str(&text).unwrap();
     let excluded = table["exclude_re"].as_array().unwrap();
-    assert!(excluded.len() > 30, "{}", excluded.len());
+    assert!(excluded.len() > 25, "{}", excluded.len());
     for expression in excluded {
         let expression = expression.as_str().unwrap();
         let (file, mutant) = expression.split_once(':').unwrap();

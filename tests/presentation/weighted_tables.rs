@@ -6,6 +6,7 @@ use crate::ledgers::tables::computed;
 use crate::prelude::*;
 use corfem::present::check::MOST_SUSPECTS;
 use corfem::present::render::WIDTH;
+use std::sync::Arc;
 
 fn fits(tables: &[Table]) {
     let text = text(tables);
@@ -68,12 +69,11 @@ fn a_job_names_its_suspects() {
         factors[4] = 0.3;
         let right = prepared.analyze(&factors).unwrap();
         let right = right.model().exact();
-        for (j, &i) in right.pairing.analysis_mode.iter().enumerate() {
-            alter(&mut prepared.test, |squares, _| {
-                squares[j] = right.modes.omega_squared()[i];
-            });
-            let shape = right.modes.shapes().column(i).into_owned();
-            alter(&mut prepared.test, |_, shapes| shapes.set_column(j, &shape));
+        let data = &mut Arc::make_mut(&mut prepared.loaded).data;
+        for (&mode, &i) in prepared.modes.iter().zip(&right.pairing.analysis_mode) {
+            data.frequencies_hz[mode] = right.modes.frequencies_hz()[i];
+            data.shapes
+                .set_column(mode, &right.modes.shapes().column(i));
         }
         let table = suspects_table(&prepared);
         fits(from_ref(&table));

@@ -315,7 +315,7 @@ fn an_interval_is_that_of_as_much_noise_as_there_is() {
     assert_within(alone.sqrt() * deviation, 1.0, MATRIX_ROUND_OFF);
     let wide = (interval.upper / interval.lower).ln();
     assert!(
-        relative_error(wide, 2.0 * NORMAL_95 * deviation) < ROUND_OFF,
+        relative_error(wide, 2.0 * NORMAL_95 * deviation) < END_OF_INTERVAL,
         "{wide}"
     );
 }
@@ -465,7 +465,11 @@ fn the_answer_names_every_factor_that_differs_from_one() {
         let line = unbroken(found.words.split("\n\n").next().unwrap());
         let said = format!("; {count} of 6 factors differ from 1 beyond their interval, ");
         let rest = format!("; {} unchanged, {} unknown.", told - count, 6 - told);
-        assert!(line.contains(&said) && line.ends_with(&rest), "{line}");
+        assert!(
+            line.contains(&said) && line.ends_with(&rest),
+            "{line}\n{}",
+            found.words
+        );
         for (number, own) in found.intervals.iter().enumerate() {
             assert_eq!(
                 line.contains(&format!(" p{number} ")),

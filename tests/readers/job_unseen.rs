@@ -189,29 +189,3 @@ properties! {
         }
     }
 }
-
-/// A pencil of two equal chains side by side, each mode of which the sensors on one of them see in one of two copies.
-#[test]
-fn of_equal_roots_as_few_as_possible_are_seen() {
-    let row = |first: usize| {
-        (0..6_usize).map(move |row| (first + row, row.checked_sub(1).map(|row| first + row), 1e4))
-    };
-    let links = [(0, Some(6), 1e-9)];
-    let stiffness = springs(12, &row(0).chain(row(6)).chain(links).collect_vec());
-    let model = WholeModel::new(stiffness, masses(&[1.0; 12]), Vec::new()).unwrap();
-    let alone = springs(6, &row(0).collect_vec());
-    let test = lowest_modes(&alone, &masses(&[1.0; 6]), 4)
-        .unwrap()
-        .vibrations;
-    let seen = seen_by(&sensors_at(&[2, 5], 6), &test);
-    let size = modes_alone(4);
-    let found = model.analyze(&[], &sensors_at(&[2, 5], 12), &seen, by_sorting(), size);
-    for (one, other) in found
-        .unwrap()
-        .omega_squared()
-        .iter()
-        .zip(test.omega_squared())
-    {
-        assert!(relative_error(one, other) < 1e-6, "{one} {other}");
-    }
-}

@@ -47,13 +47,7 @@ impl Uncoupled<'_> {
         let (stiffness, mass, test) = self.matrices();
         let shares = [ParameterMatrix::Mass(share)];
         let (whole, sensors) = of_dense(&stiffness, &mass, &shares).unwrap();
-        let found = whole.analyze(
-            &[1.0],
-            &sensors,
-            &test,
-            by_sorting(),
-            modes_alone(mass.nrows()),
-        );
+        let found = whole.analyze(&[1.0], &sensors, &test, by_sorting(), mass.nrows());
         found.unwrap()
     }
 }

@@ -41,23 +41,18 @@ impl Noisy {
     }
 }
 
-/// By the lowest objective of all other factors with a factor held there, an interval that is not symmetric, and so not by slopes.
+/// By the lowest objective of all other factors with a factor held there.
 #[test]
 fn at_the_ends_of_an_interval_the_objective_is_as_much_higher() {
     let (noisy, free) = (Noisy::new(3), [None; 15]);
     let best = noisy.optimum(&[1.0; 15], &free);
     let all = noisy.intervals(&best.factors, &free, 1.0);
-    let [mut by_slope, mut by_objective] = [0; 2];
+    let mut given = 0;
     for (e, interval) in all.iter().enumerate() {
         let Ok(Bounds { lower, upper }) = *interval else {
             continue;
         };
-        let middle = (lower * upper / best.factors[e].powi(2)).ln();
-        if middle.abs() < MATRIX_ROUND_OFF {
-            by_slope += 1;
-            continue;
-        }
-        by_objective += 1;
+        given += 1;
         for end in [lower, upper] {
             let mut ranges = free;
             ranges[e] = Some(Bounds {
@@ -72,16 +67,12 @@ fn at_the_ends_of_an_interval_the_objective_is_as_much_higher() {
             );
         }
     }
-    assert!(
-        by_slope >= 5 && by_objective >= 1,
-        "{by_slope} {by_objective}"
-    );
+    assert!(given >= 10, "{given}");
 }
 
-/// Panel 1 is seen well: its interval is by slopes, of deviations so many times as large and of the prior as it is. No interval is wider
-/// than the prior's, however large the deviations.
+/// No interval is wider than the prior's, however large the deviations, and those of parameters that are mostly the prior's are withheld.
 #[test]
-fn widening_scales_the_measurement_and_never_the_prior() {
+fn widening_never_scales_the_prior() {
     let (noisy, free) = (Noisy::new(3), [None; 15]);
     let best = noisy.optimum(&[1.0; 15], &free);
     let slopes = jacobian(
@@ -94,11 +85,6 @@ fn widening_scales_the_measurement_and_never_the_prior() {
         let all = noisy.intervals(&best.factors, &free, widening);
         let seen = identifiability(&(&slopes / widening), &[PRIOR_DEVIATION; 15]).unwrap();
         let width = |interval: &Bounds| (interval.upper / interval.lower).ln();
-        if widening < 2.0 {
-            let own = 2.0 * NORMAL_95 * seen.deviations[0];
-            let width = width(&all[0].unwrap());
-            assert!(relative_error(width, own) < MATRIX_ROUND_OFF, "{widening}");
-        }
         for (e, interval) in all.iter().enumerate() {
             match interval {
                 Ok(interval) => assert!(width(interval) <= prior, "{widening}, {e}"),

@@ -35,7 +35,12 @@ fn seen(files: &Files) -> (Vec<f64>, DMatrix<f64>) {
     let count = job.loaded.parameter_names().count();
     let comparison = job.analyze(&vec![1.0; count]).unwrap();
     let model = comparison.model();
-    let hertz = model.omega_squared().iter().map(|root| root.sqrt() / TAU);
+    let hertz = model
+        .exact()
+        .modes
+        .omega_squared()
+        .iter()
+        .map(|root| root.sqrt() / TAU);
     (hertz.collect(), model.basis().clone())
 }
 

@@ -80,7 +80,7 @@ fn the_jacobian_is_the_derivative_of_exact_analyses() {
             }
         });
         let analyzed = |factors: &[f64]| {
-            let model = first.analyze(factors, &sensors, &test, by_sorting(), modes_alone(9));
+            let model = first.analyze(factors, &sensors, &test, by_sorting(), 9);
             let model = Comparison::from(model.unwrap());
             let model = model.with_groups(groups.clone()).unwrap();
             model.with_component_weights(own.clone()).unwrap()

@@ -69,13 +69,8 @@ impl Net {
 
     fn analyze(&self, factors: &[f64]) -> Result<SensorModel, Error> {
         let pair = by_sorting();
-        self.model.analyze(
-            factors,
-            &self.sensors,
-            &self.test,
-            pair,
-            modes_alone(self.vibrations),
-        )
+        self.model
+            .analyze(factors, &self.sensors, &self.test, pair, self.vibrations)
     }
 }
 
@@ -147,7 +142,12 @@ const CHANGED: [f64; 7] = [1.05, 0.95, 1.1, 0.9, 1.3, 0.8, 1.2];
 /// The changed stiffness and mass in the basis, of rigid-body modes too, which have no stiffness.
 fn in_basis(model: &SensorModel) -> [DMatrix<f64>; 2] {
     let size = model.basis().ncols();
-    let k = model.omega_squared().clone().resize_vertically(size, 0.0);
+    let k = model
+        .exact()
+        .modes
+        .omega_squared()
+        .clone()
+        .resize_vertically(size, 0.0);
     let mut both = [DMatrix::from_diagonal(&k), eye(size)];
     for (share, factor) in model.shares().iter().zip(CHANGED) {
         let is_mass = matches!(share, ParameterMatrix::Mass(_));

@@ -7,10 +7,10 @@ use super::{
 use crate::{
     job::{
         concern::{Check, Concern, NONE},
-        pairs::{Frequencies, costs, pair_cheaply},
+        pairs::{Frequencies, costs},
     },
     method::{error::Error, modes::Modes},
-    sparse::{modal_assurance, parts_of},
+    sparse::{modal_assurance, moves_of, pair_cheaply},
     weighted::noise::Noise,
 };
 use nalgebra::DMatrix;
@@ -75,7 +75,7 @@ pub fn in_units(
     let (hertz, own_hertz) = (test.frequencies_hz(), seen.modes.frequencies_hz());
     let readings = &seen.modes.shapes;
     let shapes = costs(&modal_assurance(readings, &test.shapes)?, readings, None);
-    let parts = parts_of(&seen.shares, &seen.modes);
+    let parts = moves_of(&seen.shares, &seen.modes);
     let of_units = |factor: f64| {
         let own = hertz.iter().zip(noise);
         let frequencies = Frequencies {

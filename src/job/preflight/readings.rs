@@ -1,4 +1,4 @@
-//! Which single mistake in the readings explains a test, judged against what noise and a wrong model may do to its shapes.
+//! The single mistake in the readings that explains a test, judged against what noise and a wrong model may do to its shapes.
 //!
 //! To first order, a parameter wrong by the fraction $\delta_e$ changes mode i of the model by
 //!
@@ -15,12 +15,9 @@
 //! structures and light points are judged like others.
 
 use crate::{
-    job::{
-        concern::{Check, Concern},
-        pairs::pair_cheaply,
-    },
+    job::concern::{Check, Concern},
     method::{error::Error, modes::Modes},
-    sparse::{ParameterMatrix, solve_lower},
+    sparse::{ParameterMatrix, pair_cheaply, solve_lower},
     weighted::noise::Noise,
 };
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView};

@@ -153,6 +153,21 @@ impl FactorizationPlan {
         values
     }
 
+    /// Multiplies rows and columns of entries so that the diagonal is of ones, by numbers that it returns.
+    pub(super) fn scale(&self, entries: &mut [f64]) -> Vec<f64> {
+        let size = |column: usize| match entries[self.pattern.col_ptr()[column]] {
+            0.0 => 1.0,
+            entry => entry.abs().sqrt().recip(),
+        };
+        let scale: Vec<f64> = (0..self.order.len()).map(size).collect();
+        for (column, own) in scale.iter().enumerate() {
+            for place in self.pattern.col_range(column) {
+                entries[place] *= own * scale[self.pattern.row_idx()[place]];
+            }
+        }
+        scale
+    }
+
     /// $L$ and $D$ of given entries, in one thread whatever the library's global setting: its parallel kernels have open reports of wrong
     /// results on large matrices.
     pub(super) fn factor(&self, what: &'static str, entries: &[f64]) -> Result<Vec<f64>, Error> {

@@ -17,13 +17,7 @@ fn sensed(d: &mut Draws) -> Result<SensorModel, Error> {
         ParameterMatrix::Mass(spring_stiffness(count, 0, 0.5)),
     ];
     let (whole, sensors) = of_dense(&stiffness, &mass, &shares)?;
-    whole.analyze(
-        &[1.0; 2],
-        &sensors,
-        model.test(),
-        by_sorting(),
-        modes_alone(count),
-    )
+    whole.analyze(&[1.0; 2], &sensors, model.test(), by_sorting(), count)
 }
 
 fn comparison(d: &mut Draws) -> Result<Comparison, Error> {

@@ -60,7 +60,7 @@ impl Row {
     }
 
     fn at(&self, factors: &[f64]) -> Comparison {
-        let size = modes_alone(MODES[1]);
+        let size = MODES[1];
         let pair = by_sorting();
         self.model
             .analyze(factors, &self.sensors, &self.test, pair, size)

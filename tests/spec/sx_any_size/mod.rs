@@ -3,10 +3,11 @@
 pub mod brackets;
 pub mod clusters;
 pub mod condensation;
+pub mod deflections;
 pub mod exact_slopes;
 pub mod factorization;
 pub mod free_modes;
-pub mod residual_vectors;
+
 pub mod rigid_bodies;
 pub mod whole_model;
 pub mod whole_model_modes;

@@ -9,7 +9,7 @@ fn a_mode_that_no_sensor_sees_is_like_no_test_mode() {
     let (model, sensors) = apart();
     let analyze = |modes: usize, squares: DVector<f64>, shapes: DMatrix<f64>| {
         let test = Modes::new(squares, shapes).unwrap();
-        model.analyze(&[1.0], &sensors, &test, by_sorting(), modes_alone(modes))
+        model.analyze(&[1.0], &sensors, &test, by_sorting(), modes)
     };
     let found = analyze(1, dvector![1.2], eye(1)).unwrap();
     assert_eq!(found.exact().modes.len(), 1, "the other takes no part");
@@ -36,7 +36,7 @@ fn a_state_in_which_rigid_body_modes_have_no_mass_is_refused() {
     let model = WholeModel::new(spring, masses(&[1.0; 2]), vec![parameter]).unwrap();
     let test = Modes::new(dvector![2.0], dmatrix![1.0; -1.0]).unwrap();
     let sensors = sensors_at(&[0, 1], 2);
-    let free = model.analyze(&[1.0], &sensors, &test, by_sorting(), modes_alone(1));
+    let free = model.analyze(&[1.0], &sensors, &test, by_sorting(), 1);
     let free = free.unwrap();
     assert!(free.at(&[2.0]).is_ok());
     let said = said(free.at(&[-1.0]).map(drop));
@@ -53,7 +53,7 @@ fn share_and_congruence(matrix: DMatrix<f64>) -> [DMatrix<f64>; 2] {
     let model = WholeModel::new(springs(3, &stories), masses(&[1.0; 3]), vec![parameter]).unwrap();
     let test = model.modes(&[1.0], 3).unwrap().vibrations;
     let sensors = sensors_at(&[0, 1, 2], 3);
-    let found = model.analyze(&[1.0], &sensors, &test, by_sorting(), modes_alone(3));
+    let found = model.analyze(&[1.0], &sensors, &test, by_sorting(), 3);
     let found = found.unwrap();
     let shapes = found.exact().modes.shapes();
     let congruence = shapes.tr_mul(&(matrix * shapes));
@@ -79,7 +79,7 @@ fn a_share_on_the_test_shapes_is_that_on_their_modes() {
     let turned = whole.shapes() * DMatrix::from_diagonal(&turns.to_vec().into());
     let test = Modes::new(whole.omega_squared().clone(), turned).unwrap();
     let found = model
-        .analyze(&[1.0; 3], &sensors, &test, by_sorting(), modes_alone(3))
+        .analyze(&[1.0; 3], &sensors, &test, by_sorting(), 3)
         .unwrap();
     let modes = found.exact().modes.shapes();
     let sign = |j: usize| modes.column(j).dot(&test.shapes().column(j)).signum();
@@ -108,7 +108,7 @@ fn the_error_change_by_a_mass_of_a_free_structure_is_near_its_limit() {
     let test = model.modes(&[1.5], 2).unwrap().vibrations;
     let test = seen_by(&sensors, &test);
     let free = |factor: f64| {
-        let size = modes_alone(2);
+        let size = 2;
         let found = model.analyze(&[factor], &sensors, &test, by_sorting(), size);
         found.unwrap()
     };
@@ -162,7 +162,7 @@ fn test_shapes_at_sensors_are_scaled_to_their_modes() {
     let mut other = test.clone();
     alter(&mut other, |_, shapes| *shapes *= diagonal(scales));
     let [first, other] = [&test, &other].map(|test| {
-        let found = model.analyze(&[1.0; 10], &sensors, test, by_sorting(), modes_alone(10));
+        let found = model.analyze(&[1.0; 10], &sensors, test, by_sorting(), 10);
         found.unwrap()
     });
     let State { modes, pairing, .. } = first.exact();
@@ -185,7 +185,7 @@ fn the_condensed_analysis_of_the_box_is_that_of_the_method() {
     let factors = (0..15).map(|e| 0.8 + 0.03 * e as f64).collect_vec();
     let expected = model.analyze(&factors, &test, None).unwrap();
     let found = analyze_condensed(&whole, &factors, &sensors, &test, None).unwrap();
-    let at_sensors = whole.analyze(&factors, &sensors, &test, by_sorting(), modes_alone(9));
+    let at_sensors = whole.analyze(&factors, &sensors, &test, by_sorting(), 9);
     let at_sensors = at_sensors.unwrap();
     for state in [found.exact(), at_sensors.exact()] {
         assert_alike(paired_hz(state), paired_hz(expected.exact()), SAME_ANALYSIS);
@@ -302,7 +302,7 @@ fn five_of_ten() -> (WholeModel, SparseMatrix, Modes) {
 
 /// Asserts that a model is corrected to the truth by a test without noise.
 fn assert_recovered(model: &WholeModel, sensors: &SparseMatrix, test: &Modes, truth: &[f64]) {
-    let size = modes_alone(truth.len());
+    let size = truth.len();
     let analyze = |factors: &[f64]| model.analyze(factors, sensors, test, by_sorting(), size);
     let settings = fine_settings().for_modes(test.len());
     let found = correlate(analyze, &model.ranges(), &settings, |_, _| true).unwrap();
