@@ -54,22 +54,15 @@ impl PreparedJob {
         let (source, lowest) = (&self.loaded.source, self.first.shapes(1).frequencies_hz());
         let found = source
             .whole
-            .body_findings(|row| source.row_name(row), lowest.first().copied())?
-            .into_iter();
-        let found = found.map(|own| of_bodies(&own));
-        let said = self
-            .loaded
-            .job
-            .model
-            .rigid_bodies
-            .filter(|count| *count > 0);
-        let said = said.map(|_| {
+            .body_findings(|row| source.row_name(row), lowest.first().copied())?;
+        let is_said = self.loaded.job.model.rigid_bodies.unwrap_or(0) > 0;
+        let said = is_said.then(|| {
             Concern::not_checked(
                 Check::FreeMotions,
                 "model.rigid_bodies says how many there are",
             )
         });
-        Ok(found.chain(said).collect())
+        Ok(found.iter().map(of_bodies).chain(said).collect())
     }
 
     /// What the pre-flight finds in all modes of the test.

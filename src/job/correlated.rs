@@ -29,7 +29,7 @@ const MOST_ROWS: usize = 160;
 const MOST_DEFLECTIONS: usize = 30;
 
 /// Comparisons at factors about a place.
-type Followed<'a> = Box<dyn Fn(&[f64]) -> Result<Comparison, Error> + 'a>;
+pub(super) type Followed<'a> = Box<dyn Fn(&[f64]) -> Result<Comparison, Error> + 'a>;
 
 /// The way in which the factors were found.
 #[derive(Debug, Clone)]

@@ -168,9 +168,6 @@ impl LoadedJob {
                     _ => (),
                 }
             }
-            if parts.is_empty() {
-                continue;
-            }
             for (name, part) in parts {
                 let found = [
                     (

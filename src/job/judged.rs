@@ -3,18 +3,18 @@
 use super::{
     PreparedJob,
     concern::{Check, Concern, Grade, NONE, Trust, some},
-    correlated::{Caller, CorrelatedJob, History},
+    correlated::{Caller, CorrelatedJob, Followed, History},
     verdict::{End, Verdict, sum_of_nine_modes},
 };
 use crate::{
     files::error::FileError,
     method::{error::Error, step::Bounds},
-    sparse::ModeWeight,
+    sparse::{ModeWeight, Place},
     weighted::{
         comparison::ModeErrors,
         gauss_newton::WeightedStop,
         identifiability::{Identifiability, identifiability},
-        intervals::{Withheld, intervals},
+        intervals::{MOST_FOLLOWED, Withheld, intervals},
         misfit::{Misfit, Prediction},
         residuals::{jacobian, pair_by_residuals},
     },
@@ -101,7 +101,7 @@ impl CorrelatedJob {
         let seen_first = sees(&self.first, 1.0)?;
         verdict.is_within &= predicted.iter().all(|own| own.missed.is_none());
         let intervals = if verdict.end.is_stationary() {
-            self.intervals(&weights, misfit.widening())?
+            self.intervals(&weights, &seen, misfit.widening())?
         } else {
             vec![Err(Withheld::NoOptimum); self.factors.len()]
         };
@@ -132,25 +132,26 @@ impl CorrelatedJob {
     fn intervals(
         &self,
         weights: &[ModeWeight],
+        seen: &Identifiability,
         widening: f64,
     ) -> Result<Vec<Result<Bounds, Withheld>>, FileError> {
-        let (prepared, model) = (&self.prepared, &self.last);
-        let exact = jacobian(model, weights)?;
-        let priors = &prepared.loaded.source.priors;
-        let seen = identifiability(&(&exact / widening), priors)?;
-        let root = seen.covariance.cholesky();
-        let root = root
-            .ok_or(Error::no_convergence("covariance of the factors"))?
-            .l();
-        let modes = model.partners();
+        let prepared = &self.prepared;
+        let exact = jacobian(&self.last, weights)?;
+        let modes = self.last.partners();
         let count = modes.len() + self.factors.len().min(MOST_DRAWN);
         // Whatever the pairs: where the rule of pairing changes its mind the residuals would jump.
-        let mut model = model.clone();
+        let mut model = self.last.clone();
         model.model.pair = pair_by_residuals(&prepared.test, weights);
-        let analyze =
-            prepared.about((&model, &self.factors), Some((&exact, weights)), |whole| {
-                whole.drawn(Some(&root), &modes, (count, None))
-            })?;
+        let drawn = |whole: &Place| {
+            let root = seen.covariance.clone().cholesky();
+            let root = root.ok_or(Error::no_convergence("covariance of the factors"))?;
+            whole.drawn(Some(&root.l()), &modes, (count, None))
+        };
+        let analyze: Followed = match self.factors.len() > MOST_FOLLOWED {
+            // By slopes alone nothing is followed.
+            true => Box::new(|_| Ok(model.clone())),
+            false => prepared.about((&model, &self.factors), Some((&exact, weights)), drawn)?,
+        };
         Ok(intervals(
             &analyze,
             &self.factors,

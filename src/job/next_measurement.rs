@@ -62,7 +62,8 @@ impl PreparedJob {
             next.unranked.push(why.to_owned());
             return Ok(next);
         }
-        let at_hand = self.beside(Arc::clone(&self.first), Method::GaussNewton)?;
+        let method = Method::GaussNewton;
+        let at_hand = self.beside(Arc::clone(&self.first), method, self.pair(method))?;
         let exact = at_hand.clone().with_slopes()?;
         let (names, weights) = (&self.loaded.placed, self.weights());
         let by = |own: &Comparison| deviations(own, &weights, priors);

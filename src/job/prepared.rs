@@ -290,7 +290,10 @@ impl PreparedJob {
     /// # Errors
     /// The errors of [`crate::sparse::WholeModel::analyze`].
     pub fn analyze(&self, factors: &[f64]) -> Result<Comparison, Error> {
-        self.analyze_near(factors, None, self.pair(self.loaded.job.compare.method))
+        match &self.comparison {
+            Some(first) if factors == self.loaded.ones() => Ok(first.clone()),
+            _ => self.analyze_near(factors, None, self.pair(self.loaded.job.compare.method)),
+        }
     }
 
     /// The modal model at factors, its modes sought from shapes `near` them, and paired by a rule.
@@ -307,16 +310,11 @@ impl PreparedJob {
             true => Arc::clone(&self.first),
             false => whole.exactly(factors, &self.loaded.sensors, modes..=most, near)?,
         };
-        self.paired_by(place, self.loaded.job.compare.method, pair)
+        self.beside(place, self.loaded.job.compare.method, pair)
     }
 
-    /// An analysis beside the test, as a method compares them.
-    pub(super) fn beside(&self, place: Arc<Place>, method: Method) -> Result<Comparison, Error> {
-        self.paired_by(place, method, self.pair(method))
-    }
-
-    /// The same with another rule of pairing.
-    fn paired_by(
+    /// An analysis beside the test, as a method compares them, paired by a rule.
+    pub(super) fn beside(
         &self,
         place: Arc<Place>,
         method: Method,

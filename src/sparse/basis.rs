@@ -2,7 +2,7 @@
 
 use super::checks::independent;
 use super::matrix::GIVEN;
-use super::place::{Place, added};
+use super::place::{Place, added, turn_alike};
 use super::sensor_model::{Pair, SensorModel};
 use super::share::Share;
 use super::{solve_lower, transposed_product};
@@ -71,8 +71,7 @@ impl Basis {
         let (known, rigid) = (place.known_shapes(), place.rigid_body().ncols());
         // Deflections stand before the motions that nothing resists.
         let vibrations = known.ncols() - rigid;
-        let all = known.insert_columns(vibrations, deflections.ncols(), 0.0);
-        let mut all = all;
+        let mut all = known.insert_columns(vibrations, deflections.ncols(), 0.0);
         all.columns_mut(vibrations, deflections.ncols())
             .copy_from(&deflections);
         let n = all.ncols();
@@ -173,12 +172,8 @@ impl Basis {
             squares.rows(0, count).into_owned(),
             seen.columns(0, count).into_owned(),
         );
-        for (mode, signed) in modes.shapes.column_iter().enumerate() {
-            if seen.column(mode) != signed {
-                seen.column_mut(mode).neg_mut();
-                shapes.column_mut(mode).neg_mut();
-            }
-        }
+        turn_alike(&mut shapes, &seen, &modes.shapes);
+        seen.columns_mut(0, count).copy_from(&modes.shapes);
         Ok(Solved {
             modes,
             squares: squares.resize_vertically(order.len(), 0.0),

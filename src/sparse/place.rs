@@ -170,12 +170,9 @@ impl Place {
         let count = weights.iter().map(DMatrix::nrows).max().unwrap_or(0);
         let mut sum = DMatrix::zeros(count, self.whole.dof_count());
         let shapes = of.shapes.transpose();
-        for (e, weights) in weights.iter().enumerate() {
-            if weights.is_empty() {
-                continue;
-            }
+        let parts = weights.iter().zip(self.whole.parts()).enumerate();
+        for (e, (weights, (_, rows))) in parts.filter(|(_, (weights, _))| !weights.is_empty()) {
             let loads = weights * self.loads_of(e, of, &shapes);
-            let rows = self.whole.parts().nth(e).map_or(&[][..], |own| own.1);
             for (&row, loads) in rows.iter().zip(loads.column_iter()) {
                 let mut sum = sum.column_mut(row);
                 sum += loads;

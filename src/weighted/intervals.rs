@@ -128,7 +128,6 @@ pub fn intervals(
         if (deviations[e] / priors[e]).powi(2) > MOSTLY_PRIOR {
             return Err(Withheld::MostlyPrior);
         }
-        // Logarithms of all factors for a change of this one, which is held there.
         let by_slope = NORMAL_95 * deviations[e];
         let ends = if factors.len() > MOST_FOLLOWED {
             [-by_slope, by_slope]
