@@ -28,7 +28,7 @@ pub struct NextMeasurement {
 
 /// Root of the mean square of deviations.
 pub fn mean_deviation(deviations: &[f64]) -> f64 {
-    ((deviations.iter().map(|own| own * own).sum::<f64>()) / deviations.len() as f64).sqrt()
+    (deviations.iter().map(|own| own * own).sum::<f64>() / deviations.len() as f64).sqrt()
 }
 
 /// Changes of one kind with the deviations after each, the best first.
