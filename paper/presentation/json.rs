@@ -54,18 +54,18 @@ fn case(result: &CaseResult) -> Result<Value, PresentError> {
 
 /// A pass: factors are totals since the first model, those of its iterations totals since the last exact solution.
 fn pass(pass: &Pass) -> Value {
-    let errors = &pass.check.errors;
+    let (errors, iterations) = (&pass.check.errors, &pass.inner.iterations);
     json!({
         "stop": pass.inner.stop,
         "factors": pass.factors,
         "frequency_rms": errors.frequency_rms(),
         "shape_rms": errors.shape_rms(),
-        "unlimited_factors": pass.inner.first_unlimited_factors,
-        "history": pass.inner.iterations.iter().map(iteration).collect::<Value>(),
+        "unlimited_factors": iterations.first().map(|first| &first.unlimited_factors),
+        "history": iterations.iter().map(iteration).collect::<Value>(),
     })
 }
 
-/// One iteration of an inner loop: its errors, halvings, factors and the limits that held them.
+/// One iteration of an inner loop: its errors, halvings and factors.
 pub fn iteration(iteration: &Iteration) -> Value {
     json!({
         "frequency_error": iteration.errors.frequency,
@@ -74,6 +74,5 @@ pub fn iteration(iteration: &Iteration) -> Value {
         "halvings": iteration.halvings,
         "unlimited_factors": iteration.unlimited_factors,
         "factors": iteration.factors,
-        "limits": iteration.limits,
     })
 }

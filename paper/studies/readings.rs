@@ -291,7 +291,7 @@ pub fn tables() -> Vec<Table> {
         .collect_vec();
     let demands = READINGS.map(|reading| {
         let result = run_by_reading(&case_of(4), reading).unwrap();
-        let mut factors = result.unlimited_factors().to_vec();
+        let mut factors = result.unlimited_factors.clone();
         let faulty = factors.remove(FAULTY_ELEMENT - 1);
         (reading.name(), vec![faulty, factors.into_iter().largest()])
     });

@@ -264,7 +264,7 @@ fn gages() -> Diagram {
 }
 
 fn demands() -> Diagram {
-    let factors = case_run(&case_of(4)).unlimited_factors().to_vec();
+    let factors = case_run(&case_of(4)).unlimited_factors.clone();
     let bars = vec![("factor asked for", Bars, numbered(factors))];
     let title = "Case 4: unlimited factors of the first iteration";
     of_panels(title, "unlimited factor", [-20.0, 0.0, 60.0], bars)

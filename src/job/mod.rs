@@ -51,7 +51,7 @@ use crate::{
     method::{
         inner_loop::InnerSettings,
         outer_loop::Settings,
-        step::{Accumulation, Bounds, StepRule},
+        step::{Bounds, StepRule},
     },
 };
 use serde::Deserialize;
@@ -237,8 +237,6 @@ struct InnerEntries {
     #[serde(skip)]
     iterations: usize,
     step: StepRule,
-    #[serde(skip)]
-    accumulation: Accumulation,
 }
 
 /// Method that finds factors.

@@ -3,12 +3,10 @@
 //!
 //! [`Model`](crate::method::model::Model) answers them as the paper does. Any other analysis that answers them can be correlated.
 
-use super::error::Result;
-use super::error_sum::Errors;
-use super::linear_algebra::Matrix;
-use super::modes::Modes;
-use super::sorting::Pairing;
-use super::step::StepRule;
+use super::{
+    error::Result, error_sum::Errors, linear_algebra::Matrix, modes::Modes, sorting::Pairing,
+    step::StepRule,
+};
 
 /// Relative change of a parameter's stiffness for a derivative.
 pub const DERIVATIVE_STEP: f64 = 0.001;

@@ -1,12 +1,15 @@
 //! Appendix A: the structural stiffness, and from structural to dynamic degrees of freedom.
 //! Tour: [chapter 7](crate::tour::chapter_07_condensation).
 
-use super::elements::unit_stiffness;
-use super::error::{Error, Result, at_least_one, check_places};
-use super::linear_algebra::{
-    Matrix, check_length, check_matrix, check_shape, cholesky, round_off, symmetric_part,
+use super::{
+    elements::unit_stiffness,
+    error::{Error, Result, at_least_one, check_places},
+    linear_algebra::{
+        Matrix, check_length, check_matrix, check_shape, cholesky, congruence, round_off,
+        symmetric_part,
+    },
+    structure::Structure,
 };
-use super::structure::Structure;
 
 /// Pivot of the flexibility relative to its diagonal below which a dynamic DOF is a combination of others.
 const SMALLEST_PIVOT: f64 = 1e-13;
@@ -170,5 +173,15 @@ pub fn generalized_stiffness(
     structural_shapes: &Matrix,
 ) -> Matrix {
     let own = structural_shapes.select_rows(&element.dof);
-    size * symmetric_part(&own.tr_mul(&(&element.unit * &own)))
+    size * symmetric_part(&congruence(&element.unit, &own))
+}
+
+/// Dynamic mass $M = B M_S B^t$ of a structural mass $M_S$ (free SDOF × free SDOF), for the $B^t$ of [`Condensed`] (A.9).
+///
+/// # Errors
+/// [`Error::WrongShape`] for a mass that does not fit.
+pub fn condensed_mass(mass: &Matrix, transformation: &Matrix) -> Result<Matrix> {
+    let free_count = transformation.nrows();
+    check_shape("structural mass", mass, free_count, free_count)?;
+    Ok(symmetric_part(&congruence(mass, transformation)))
 }

@@ -11,14 +11,17 @@
 //! Only free and softly suspended structures are balanced: where supports hold the structure, their reactions balance
 //! the forces, which are then not zero at the dynamic DOF.
 
-use super::error::{Error, Result, at_least_one, positive, require};
-use super::linear_algebra::{
-    Matrix, check_finite, check_matrix, check_shape, check_symmetric, cholesky, pencil_eigen,
-    symmetric_part,
+use super::{
+    error::{Error, Result, at_least_one, positive},
+    linear_algebra::{
+        Matrix, check_finite, check_matrix, check_shape, check_symmetric, cholesky, congruence,
+        pencil_eigen, symmetric_part,
+    },
+    modes::{Modes, generalized_mass, solve},
+    sorting::pair_modes,
+    structure::Point,
 };
-use super::modes::{Modes, generalized_mass, solve};
-use super::sorting::pair_modes;
-use nalgebra::{Unit, Vector3};
+use nalgebra::Unit;
 
 /// Rigid-body stiffness, relative to $\omega^2$ times the rigid-body mass, above which a structure counts as supported:
 /// soft suspensions have modes below a fifth of every test frequency, supported structures a ratio of one or more.
@@ -30,7 +33,7 @@ pub const LARGEST_SUSPENSION_RATIO: f64 = 0.04;
 const SMALLEST_INDEPENDENT_PART: f64 = 1e-12;
 
 /// Test shapes whose forces and moments balance.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct Balanced {
     /// Balanced shapes $v_i + \Phi r_i$ (d × n), at the scale of the raw ones.
     pub shapes: Matrix,
@@ -88,20 +91,20 @@ pub fn balance(
     check_shape("dynamic stiffness", stiffness, dof_count, dof_count)?;
     check_symmetric("dynamic stiffness", stiffness)?;
     check_matrix("rigid-body vectors", rigid_body, dof_count, motion_count)?;
-    let through = |matrix: &Matrix| rigid_body.tr_mul(&(matrix * rigid_body));
-    let lower = cholesky("rigid-body mass", &through(mass), SMALLEST_INDEPENDENT_PART)?;
+    let of_motions = congruence(mass, rigid_body);
+    let lower = cholesky("rigid-body mass", &of_motions, SMALLEST_INDEPENDENT_PART)?;
     // μ, zero on a free structure, and L⁻ᵗ Y (m × m).
     let (mu, from_suspension) = pencil_eigen(
         "rigid-body stiffness",
-        &through(stiffness),
+        &congruence(stiffness, rigid_body),
         &lower,
         motion_count,
     )?;
-    let (omega_squared, limit) = (&raw.omega_squared, LARGEST_SUSPENSION_RATIO);
+    let omega_squared = &raw.omega_squared;
     for (mode, square) in omega_squared.iter().enumerate() {
         let ratio = mu.amax() / square;
-        if ratio > limit {
-            return Err(Error::Supported { mode, ratio, limit });
+        if ratio > LARGEST_SUSPENSION_RATIO {
+            return Err(Error::Supported { mode, ratio });
         }
     }
     let motions = rigid_body * &from_suspension;
@@ -125,13 +128,13 @@ pub fn balance(
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuringPoint {
     /// Position, in: x aft, y outboard, z up, from the reference axes.
-    pub position: Vector3<f64>,
+    pub position: Point,
     /// Direction of motion.
-    pub direction: Unit<Vector3<f64>>,
+    pub direction: Unit<Point>,
 }
 
 /// A rigid-body motion, named by the force or moment that does work on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub enum Motion {
     /// Translation along x: drag.
     ForeAft,
@@ -139,11 +142,11 @@ pub enum Motion {
     Side,
     /// Translation along z: vertical force.
     Plunge,
-    /// Rotation about x: rolling moment.
+    /// Rotation about x, y towards z: rolling moment.
     Roll,
-    /// Rotation about y: pitching moment.
+    /// Rotation about y, x towards z, which lifts the tail: pitching moment.
     Pitch,
-    /// Rotation about z: yawing moment.
+    /// Rotation about z, x towards y: yawing moment.
     Yaw,
 }
 
@@ -155,36 +158,18 @@ pub const SYMMETRIC: [Motion; 2] = [Motion::Plunge, Motion::Pitch];
 /// the other two must be left out.
 pub const ANTISYMMETRIC: [Motion; 3] = [Motion::Side, Motion::Roll, Motion::Yaw];
 
-impl Motion {
-    /// Displacement of a point (in) under 1 in of translation, or per radian of rotation in the linear theory.
-    ///
-    /// Yaw turns x towards y, roll y towards z, and pitch x towards z, which lifts the tail.
-    pub fn displacement(self, position: Vector3<f64>) -> Vector3<f64> {
-        match self {
-            Self::ForeAft => Vector3::x(),
-            Self::Side => Vector3::y(),
-            Self::Plunge => Vector3::z(),
-            Self::Roll => Vector3::x().cross(&position),
-            Self::Pitch => position.cross(&Vector3::y()),
-            Self::Yaw => Vector3::z().cross(&position),
-        }
-    }
-}
-
-/// Rigid-body vectors $\Phi_{ij} = n_i \cdot u_j(x_i)$ (dynamic DOF × motions): what motion $j$ shows at DOF $i$.
-/// Translations have no unit, rotations are in inches per radian.
-///
-/// # Errors
-/// [`Error::Count`] without motions or without DOF; [`Error::Value`] for a position that is not finite.
-pub fn rigid_body_vectors(motions: &[Motion], dofs: &[MeasuringPoint]) -> Result<Matrix> {
-    at_least_one("rigid-body motions", motions.len())?;
-    at_least_one("dynamic degrees of freedom", dofs.len())?;
-    let vectors = Matrix::from_fn(dofs.len(), motions.len(), |i, j| {
-        dofs[i]
-            .direction
-            .dot(&motions[j].displacement(dofs[i].position))
-    });
-    check_finite("rigid-body vectors", &vectors).map(|()| vectors)
+/// Rigid-body vectors $\Phi$ (points × motions): what a motion of 1 in, or of one radian in the linear theory, shows at a point
+/// $x$ in the direction $n$ measured there. That is the component of $n$ for a translation, and for a rotation about an axis $e$
+/// $n \cdot (e \times x) = e \cdot (x \times n)$. Translations have no unit, rotations are in inches per radian.
+pub fn rigid_body_vectors(motions: &[Motion], points: &[MeasuringPoint]) -> Matrix {
+    Matrix::from_fn(points.len(), motions.len(), |i, j| {
+        let MeasuringPoint {
+            position,
+            direction: n,
+        } = points[i];
+        let turn = position.cross(&n);
+        [n.x, n.y, n.z, turn.x, -turn.y, turn.z][motions[j] as usize]
+    })
 }
 
 /// Overlap of unit shapes that is the round-off of a product over some hundreds of DOF and counts as none: it would
@@ -202,7 +187,7 @@ pub struct Movement {
 }
 
 /// Orthogonal test modes and how far each one moved.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct Orthogonalized {
     /// The modes, $V^t M V = I$, in the order and with the signs of the raw ones.
     pub modes: Modes,
@@ -277,7 +262,7 @@ pub fn orthogonalize(raw: &Modes, mass: &Matrix) -> Result<Orthogonalized> {
 /// Movements beyond which a mode is deleted, in fractions chosen by engineering judgment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovementLimits {
-    /// Change of shape by balancing, [`Balanced::change`]; between 0 and 1.
+    /// Change of shape by balancing, [`Balanced::change`], which is never more than 1.
     pub balance: f64,
     /// Change of frequency by orthogonalization, up or down, [`Movement::frequency`].
     pub frequency: f64,
@@ -311,37 +296,17 @@ pub enum Supports<'a> {
     },
 }
 
-/// Verdict on a test mode: kept, or why not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ModeVerdict {
-    /// Kept.
-    Kept,
-    /// Deleted: balancing changed its shape by more than the limit.
-    Unbalanced,
-    /// Deleted: with it among the modes, orthogonalization moved some mode past a limit.
-    NotOrthogonal,
-}
-
-/// Report on one test mode.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ModeReport {
-    /// Relative change of shape by balancing; zero when the structure was held.
-    pub balance: f64,
-    /// Movement by orthogonalization among the modes not yet deleted; none when balancing deleted it.
-    pub movement: Option<Movement>,
-    /// Kept or deleted.
-    pub verdict: ModeVerdict,
-}
-
-/// Test modes fit for correlation, and the report on all of them.
-#[derive(Debug, Clone, PartialEq)]
+/// Test modes fit for correlation, and how far all of them moved.
+#[derive(Debug)]
 pub struct Examination {
     /// The modes kept, balanced and orthonormal, in the order of the raw ones.
     pub modes: Modes,
     /// Places of these among the raw modes, from zero.
     pub kept: Vec<usize>,
-    /// One report for every raw mode.
-    pub reports: Vec<ModeReport>,
+    /// Relative change of every raw mode's shape by balancing; zero when the structure was held.
+    pub change: Vec<f64>,
+    /// Movement of every raw mode by orthogonalization among those not yet deleted; none when balancing deleted it.
+    pub movement: Vec<Option<Movement>>,
 }
 
 /// Balances the test modes, orthogonalizes them, and deletes those that do not fit.
@@ -376,15 +341,8 @@ pub fn examine(
     supports: Supports,
     limits: &MovementLimits,
 ) -> Result<Examination> {
-    let owner = || "the movement limits".to_owned();
-    let is_met = limits.balance > 0.0 && limits.balance < 1.0;
-    require(
-        is_met,
-        "balance",
-        owner,
-        limits.balance,
-        "a number between 0 and 1",
-    )?;
+    let owner = || "the movement limits".into();
+    positive("balance", owner, limits.balance)?;
     positive("frequency", owner, limits.frequency)?;
     positive("shape", owner, limits.shape)?;
     let (mut balanced, mut change) = (raw.clone(), vec![0.0; raw.len()]);
@@ -397,23 +355,14 @@ pub fn examine(
         balanced.shapes = found.shapes;
         change = found.change;
     }
-    let report = |change: f64| ModeReport {
-        balance: change,
-        movement: None,
-        verdict: if change > limits.balance {
-            ModeVerdict::Unbalanced
-        } else {
-            ModeVerdict::Kept
-        },
-    };
-    let mut reports: Vec<_> = change.into_iter().map(report).collect();
-    let is_kept = |&mode: &usize| reports[mode].verdict == ModeVerdict::Kept;
+    let is_kept = |&mode: &usize| change[mode] <= limits.balance;
     let mut kept: Vec<usize> = (0..raw.len()).filter(is_kept).collect();
+    let mut moved = vec![None; raw.len()];
     loop {
         at_least_one("test modes within the limits", kept.len())?;
         let found = orthogonalize(&balanced.select(&kept), mass)?;
         for (&mode, &movement) in kept.iter().zip(&found.movement) {
-            reports[mode].movement = Some(movement);
+            moved[mode] = Some(movement);
         }
         // The larger movement in units of its limit.
         let excess = |place: usize| {
@@ -424,7 +373,8 @@ pub fn examine(
             return Ok(Examination {
                 modes: found.modes,
                 kept,
-                reports,
+                change,
+                movement: moved,
             });
         }
         let m = &found.overlap;
@@ -433,7 +383,6 @@ pub fn examine(
             let most = overlaps(a).total_cmp(&overlaps(b));
             most.then(excess(a).total_cmp(&excess(b)))
         };
-        let deleted = kept.remove((0..kept.len()).max_by(rank).unwrap_or(0));
-        reports[deleted].verdict = ModeVerdict::NotOrthogonal;
+        kept.remove((0..kept.len()).max_by(rank).unwrap_or(0));
     }
 }

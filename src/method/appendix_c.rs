@@ -11,14 +11,14 @@
 //! equations (C.4) to (C.9); more is in `paper/errata.md`. The same functions serve real and, with aerodynamic terms,
 //! complex numbers. Stiffness alone is in [`perturbation`](crate::method::perturbation).
 
-pub use super::linear_algebra::Number;
-
-use super::error::{Error, Result, at_least_one, require};
-use super::linear_algebra::{
-    Matrix, Vector, as_faer, check_finite, check_matrix, check_shape, cholesky, reduced,
+use super::{
+    error::{Error, Result, at_least_one, require},
+    linear_algebra::{
+        Matrix, Number, Vector, as_faer, check_finite, check_matrix, check_shape, cholesky, reduced,
+    },
+    modes::{apply_sign_rule, mode},
+    perturbation::{Perturbed, component},
 };
-use super::modes::{apply_sign_rule, mode};
-use super::perturbation::{Perturbed, SMALLEST_SEPARATION};
 use nalgebra::Complex;
 
 /// Neighboring magnitudes that differ by less than this fraction count as equal for the order of modes, so that
@@ -249,20 +249,8 @@ impl<T: Number> Pencil<T> {
             let gamma = now.roots[j];
             let sum = |i: usize| a_sums[(i, j)] * gamma - g_sums[(i, j)];
             for i in (0..size).filter(|&i| i != j) {
-                let own = self.a[(i, i)] * gamma;
-                let difference = own - self.g[(i, i)];
-                let separation = difference.modulus() / own.modulus();
-                now.shapes[(i, j)] = match -sum(i) {
-                    numerator if numerator == T::zero() => numerator,
-                    numerator if separation > SMALLEST_SEPARATION => numerator / difference,
-                    _ => {
-                        return Err(Error::CoalescingModes {
-                            first: i,
-                            second: j,
-                            separation,
-                        });
-                    }
-                };
+                let (own, other) = (self.a[(i, i)] * gamma, self.g[(i, i)]);
+                now.shapes[(i, j)] = component(sum(i), own, other, [i, j])?;
             }
             now.roots[j] = (self.g[(j, j)] - sum(j)) / self.a[(j, j)];
         }

@@ -4,8 +4,10 @@
 //! Each function takes corner positions in inches and a material, and returns the stiffness at the x, y, z translations
 //! of the corners in the order given. Stiffness is proportional to gage or area.
 
-use super::linear_algebra::{Matrix, Vector};
-use super::structure::{ElementKind, Material, Point};
+use super::{
+    linear_algebra::{Matrix, Vector},
+    structure::{ElementKind, Material, Point},
+};
 use nalgebra::{Matrix3, Vector2};
 
 /// Stiffness of an element of any kind and unit size, lbf/in per in (gage) or per in² (area), for the corners of a

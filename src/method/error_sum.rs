@@ -1,10 +1,12 @@
 //! The error sum (5, 6): how far the analysis modes are from the test modes.
 //! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
-use super::error::{Result, positive, require};
-use super::linear_algebra::check_shape;
-use super::modes::{Modes, mode};
-use super::sorting::Pairing;
+use super::{
+    error::{Result, positive, require},
+    linear_algebra::check_shape,
+    modes::{Modes, mode},
+    sorting::Pairing,
+};
 
 /// Errors of one test mode.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

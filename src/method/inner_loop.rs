@@ -1,11 +1,13 @@
 //! The inner loop: steps by perturbation alone, from one exact solution to the next.
 //! Tour: [chapter 6](crate::tour::chapter_06_inner_loop).
 
-use super::analysis::{Analysis, State};
-use super::error::{Error, Result, positive};
-use super::error_sum::Errors;
-use super::linear_algebra::check_length;
-use super::step::{Accumulation, Bounds, Limit, StepRule, limited_factor, unlimited_factor};
+use super::{
+    analysis::{Analysis, State},
+    error::{Error, Result, positive},
+    error_sum::Errors,
+    linear_algebra::check_length,
+    step::{Bounds, StepRule, limited_factor, next_share_factor, unlimited_factor},
+};
 use serde::Serialize;
 
 /// Settings of the inner loop: how it steps and when it stops.
@@ -26,8 +28,6 @@ pub struct InnerSettings {
     pub iterations: usize,
     /// Reading of the step.
     pub step: StepRule,
-    /// Way in which the changes of several iterations come together.
-    pub accumulation: Accumulation,
 }
 
 impl Default for InnerSettings {
@@ -44,7 +44,6 @@ impl Default for InnerSettings {
             halvings: 5,
             iterations: 30,
             step: StepRule::Matrix,
-            accumulation: Accumulation::Sum,
         }
     }
 }
@@ -85,8 +84,6 @@ pub struct Iteration {
     pub halvings: usize,
     /// Factor $g_e$ on each parameter's gage since the last exact solution, after the step.
     pub factors: Vec<f64>,
-    /// Limit of each parameter's factor.
-    pub limits: Vec<Limit>,
     /// Errors after the step.
     pub errors: Errors,
 }
@@ -102,8 +99,6 @@ pub struct InnerRun {
     pub last: State,
     /// Factor $g_e$ on each parameter's gage since the last exact solution, where it ended.
     pub factors: Vec<f64>,
-    /// Unlimited factors at the start: what the first iteration asked for, taken or not.
-    pub first_unlimited_factors: Vec<f64>,
     /// Reason why it stopped.
     pub stop: Stop,
 }
@@ -135,7 +130,7 @@ pub struct InnerRun {
 /// let settings = Settings::default().for_modes(1).inner; // steps and tolerances of one mode for the paper's nine
 /// let inner = run(&model.analyze(&test, None)?, &[1.0], &[None], &settings)?;
 /// // The first step asks for a factor of 1.6 and gets the 1.5 that one iteration may.
-/// assert!((inner.first_unlimited_factors[0] - 1.6).abs() < 0.001);
+/// assert!((inner.iterations[0].unlimited_factors[0] - 1.6).abs() < 0.001);
 /// assert_eq!((inner.iterations[0].factors[0], inner.stop), (1.5, Stop::Tolerance));
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
@@ -157,16 +152,11 @@ pub fn run(
         iterations: Vec::new(),
         last,
         factors,
-        first_unlimited_factors: Vec::new(),
         stop: Stop::Iterations,
     };
     while run.iterations.len() < settings.iterations {
         let is_first = run.iterations.is_empty();
         let direction = direction(analysis, &run.last, &run.factors, is_first, settings)?;
-        if is_first {
-            run.first_unlimited_factors
-                .clone_from(&direction.unlimited_factors);
-        }
         match lowering_step(analysis, &run, direction, base, total_ranges, settings) {
             Ok(Some((iteration, lower))) => {
                 run.last = lower;
@@ -224,7 +214,6 @@ fn direction(
         stiffness_changes,
         halvings: 0,
         factors: Vec::new(),
-        limits: Vec::new(),
         errors: state.errors,
     })
 }
@@ -246,9 +235,8 @@ fn lowering_step(
             let (c, range) = (iteration.unlimited_factors[e], settings.factor_range);
             limited_factor(c, fraction, factors[e], base[e], range, total_ranges[e])
         };
-        (iteration.factors, iteration.limits) = (0..factors.len()).map(limited).unzip();
-        let (rule, next) = (settings.accumulation, &iteration.factors);
-        let share = |e: usize| rule.next_share_factor(last.factors[e], factors[e], next[e]);
+        iteration.factors = (0..factors.len()).map(limited).collect();
+        let share = |e: usize| next_share_factor(last.factors[e], factors[e], iteration.factors[e]);
         match analysis.at(&(0..factors.len()).map(share).collect::<Vec<_>>()) {
             Ok(lower) if lower.errors.sum() < last.errors.sum() => {
                 (iteration.halvings, iteration.errors) = (halvings, lower.errors);

@@ -104,6 +104,11 @@ pub fn symmetric_part(matrix: &Matrix) -> Matrix {
     0.5 * matrix + 0.5 * matrix.transpose()
 }
 
+/// Congruence $V^t A V$ (n × n): stiffness or mass as it is for shapes in columns (d × n).
+pub(crate) fn congruence(matrix: &Matrix, shapes: &Matrix) -> Matrix {
+    shapes.tr_mul(&(matrix * shapes))
+}
+
 /// Lower Cholesky factor $L$ of a symmetric positive definite matrix, $A = L L^t$.
 ///
 /// A pivot below `smallest_pivot` times its diagonal entry counts as not positive.

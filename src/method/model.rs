@@ -1,21 +1,23 @@
 //! The finite element model as the correlation sees it: a structure, its dynamic points, what may change, and its analysis.
 //! Tour: [chapter 11](crate::tour::chapter_11_own_structure).
 
-use super::analysis::{Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings};
-use super::appendix_a::{
-    Condensed, ElementMatrix, assemble, condense, element_matrices, generalized_stiffness,
+use super::{
+    analysis::{Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings},
+    appendix_a::{
+        Condensed, ElementMatrix, assemble, condense, element_matrices, generalized_stiffness,
+    },
+    error::{Error, Result, at_least_one, positive},
+    error_sum::errors,
+    linear_algebra::{
+        Matrix, check_finite, check_length, check_matrix, check_shape, check_symmetric, cholesky,
+        congruence, symmetric_part,
+    },
+    modes::{Modes, solve},
+    perturbation::{first_order, recursive_1_converged},
+    sorting::{cross_orthogonality, pair_modes},
+    step::{Bounds, REFERENCE_GAGE, StepRule},
+    structure::{DIRECTIONS, Structure},
 };
-use super::error::{Error, Result, at_least_one, positive};
-use super::error_sum::errors;
-use super::linear_algebra::{
-    Matrix, check_finite, check_length, check_matrix, check_shape, check_symmetric, cholesky,
-    symmetric_part,
-};
-use super::modes::{Modes, solve};
-use super::perturbation::{first_order, recursive_1_converged};
-use super::sorting::{cross_orthogonality, pair_modes};
-use super::step::{Bounds, REFERENCE_GAGE, StepRule};
-use super::structure::{DIRECTIONS, Structure};
 use std::collections::HashMap;
 
 /// Elements whose stiffness is scaled by one factor: a single one, or a substructure.
@@ -25,8 +27,6 @@ pub struct Parameter {
     pub name: String,
     /// Labels of its elements.
     pub elements: Vec<usize>,
-    /// Bounds on the gages (in) or areas (in²) of its elements, if any.
-    pub size_range: Option<Bounds>,
     /// Bounds on the factor on its first value, if any.
     pub factor_range: Option<Bounds>,
 }
@@ -37,7 +37,6 @@ impl Parameter {
         Self {
             name: name.to_string(),
             elements: elements.to_vec(),
-            size_range: None,
             factor_range: None,
         }
     }
@@ -169,22 +168,13 @@ impl FiniteElementModel {
         &self.mass
     }
 
-    /// Bounds on each parameter's factor: its own, and those that keep all its elements within its size bounds.
+    /// Bounds on each parameter's factor.
     ///
     /// # Errors
-    /// [`Error::Range`] when no factor meets both, or when the first sizes lie outside.
+    /// [`Error::Range`] for bounds that exclude the first value.
     pub fn factor_ranges(&self) -> Result<Vec<Option<Bounds>>> {
-        let range = |(parameter, rows): (&Parameter, &Vec<usize>)| {
-            let of_sizes = rows.iter().filter_map(|&row| {
-                let (range, size) = (parameter.size_range?, self.structure.elements()[row].size);
-                let (lower, upper) = (range.lower / size, range.upper / size);
-                Some(Bounds { lower, upper })
-            });
-            let all = parameter.factor_range.into_iter().chain(of_sizes);
-            let Some(Bounds { lower, upper }) = all.reduce(|a, b| Bounds {
-                lower: a.lower.max(b.lower),
-                upper: a.upper.min(b.upper),
-            }) else {
+        let range = |parameter: &Parameter| {
+            let Some(Bounds { lower, upper }) = parameter.factor_range else {
                 return Ok(None);
             };
             let what = format!("factor of parameter {}", parameter.name);
@@ -193,7 +183,7 @@ impl FiniteElementModel {
                 _ => Err(Error::Range { what, lower, upper }),
             }
         };
-        self.parameters.iter().zip(&self.rows).map(range).collect()
+        self.parameters.iter().map(range).collect()
     }
 
     /// Gages (in) and areas (in²) of all elements at the parameters' factors, in the structure's order.
@@ -334,7 +324,7 @@ impl DynamicModel {
         )?;
         check_shape("test mode shapes", &test.shapes, dof_count, test.len())?;
         let test = test.scaled_with(&self.mass)?;
-        let through = |share: &Matrix, v: &Matrix| symmetric_part(&v.tr_mul(&(share * v)));
+        let through = |share, v| symmetric_part(&congruence(share, v));
         let omega = test.omega_squared.map(f64::sqrt);
         let own = &omega * omega.transpose();
         let relative = |share| through(share, &test.shapes).component_div(&own);
@@ -439,7 +429,7 @@ impl Analysis for Model {
         check_shape("shapes of the state", p, self.exact.modes.len(), k.len())?;
         check_length("parameter factors", state.factors.len(), self.shares.len())?;
         let change = |(share, s): (&Matrix, &f64)| {
-            let beta = DERIVATIVE_STEP * *s * p.tr_mul(&(share * p));
+            let beta = DERIVATIVE_STEP * *s * congruence(share, p);
             let perturbed = first_order(k, &without_close_couplings(k.as_slice(), &beta))?;
             // First order has refused what is no mode.
             let modes = Modes {

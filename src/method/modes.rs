@@ -1,10 +1,12 @@
 //! Natural modes: the symmetric-definite eigenproblem, its order, scale and sign.
 //! Tour: [chapter 1](crate::tour::chapter_01_two_springs).
 
-use super::error::{Error, Result, at_least_one, check_count, positive};
-use super::linear_algebra::{
-    Matrix, Number, Vector, check_finite, check_matrix, check_shape, check_symmetric, cholesky,
-    pencil_eigen,
+use super::{
+    error::{Error, Result, at_least_one, check_count, positive},
+    linear_algebra::{
+        Matrix, Number, Vector, check_finite, check_matrix, check_shape, check_symmetric, cholesky,
+        congruence, pencil_eigen,
+    },
 };
 use std::f64::consts::TAU;
 
@@ -145,7 +147,7 @@ impl Modes {
 /// ```
 pub fn generalized_mass(shapes: &Matrix, mass: &Matrix) -> Result<Matrix> {
     check_shape("dynamic mass", mass, shapes.nrows(), shapes.nrows())?;
-    let overlaps = shapes.tr_mul(&(mass * shapes));
+    let overlaps = congruence(mass, shapes);
     check_finite("generalized mass", &overlaps).map(|()| overlaps)
 }
 

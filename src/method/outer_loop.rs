@@ -1,11 +1,13 @@
 //! The outer loop: finite element analysis, inner loop, and back, until analysis and test agree.
 //! Tour: [chapter 6](crate::tour::chapter_06_inner_loop).
 
-use super::analysis::{Analysis, State};
-use super::error::{Error, Result, positive};
-use super::error_sum::Errors;
-use super::inner_loop::{InnerRun, InnerSettings, run};
-use super::step::Bounds;
+use super::{
+    analysis::{Analysis, State},
+    error::{Error, Result, positive},
+    error_sum::Errors,
+    inner_loop::{InnerRun, InnerSettings, run},
+    step::Bounds,
+};
 use serde::Serialize;
 
 /// Settings of both loops: when analysis and test count as correlated, and how long to try.

@@ -9,9 +9,11 @@
 //!
 //! [`appendix_c`](crate::method::appendix_c) has the same with changes of mass, and unsymmetric and complex pencils.
 
-use super::error::{Error, Result, at_least_one};
-use super::linear_algebra::{Matrix, Number, Vector, check_finite, check_matrix};
-use super::modes::check_vibrations;
+use super::{
+    error::{Error, Result, at_least_one},
+    linear_algebra::{Matrix, Number, Vector, check_finite, check_matrix},
+    modes::check_vibrations,
+};
 
 /// Denominator relative to the generalized stiffness below which two modes count as coalescing.
 pub const SMALLEST_SEPARATION: f64 = 1e-9;
@@ -247,26 +249,29 @@ fn settle(
     Ok((perturbed, (order, last_change)))
 }
 
-/// Shapes from the present roots and the sums over the others, $p_{ij} = -S_{ij}/(k_{ii} + \beta_{ii} - 1/\gamma_j)$: zero
-/// where nothing couples the modes, refused where something does and the denominator vanishes.
+/// Shapes from the present roots and the sums over the others, $p_{ij} = -S_{ij}/(k_{ii} + \beta_{ii} - 1/\gamma_j)$.
 fn update_shapes(k: &Vector, beta: &Matrix, sums: &Matrix, now: &mut Perturbed) -> Result<()> {
     for j in 0..k.len() {
         for i in (0..k.len()).filter(|&i| i != j) {
-            let own = k[i] + beta[(i, i)];
-            let difference = own - 1.0 / now.roots[j];
-            let separation = (difference / own).abs();
-            now.shapes[(i, j)] = match sums[(i, j)] {
-                0.0 => 0.0,
-                sum if separation > SMALLEST_SEPARATION => -sum / difference,
-                _ => {
-                    return Err(Error::CoalescingModes {
-                        first: i,
-                        second: j,
-                        separation,
-                    });
-                }
-            };
+            let (own, other) = (k[i] + beta[(i, i)], 1.0 / now.roots[j]);
+            now.shapes[(i, j)] = component(sums[(i, j)], own, other, [i, j])?;
         }
     }
     check_finite("perturbed shapes", &now.shapes)
+}
+
+/// Generalized shape of the first of two modes in the second, $-S/(a - b)$: zero where nothing couples them, refused where something does
+/// and the denominator vanishes beside $a$.
+pub(crate) fn component<T: Number>(sum: T, a: T, b: T, modes: [usize; 2]) -> Result<T> {
+    let ([first, second], difference) = (modes, a - b);
+    let separation = difference.modulus() / a.modulus();
+    match sum {
+        sum if sum == T::zero() => Ok(T::zero()),
+        sum if separation > SMALLEST_SEPARATION => Ok(-sum / difference),
+        _ => Err(Error::CoalescingModes {
+            first,
+            second,
+            separation,
+        }),
+    }
 }

@@ -1,9 +1,11 @@
 //! Mode sorting (4): the pairing of every test mode with the analysis mode that answers it.
 //! Tour: [chapter 3](crate::tour::chapter_03_error_sum).
 
-use super::error::{Result, check_count, check_places};
-use super::linear_algebra::{Matrix, check_finite, check_length, check_shape};
-use super::modes::Modes;
+use super::{
+    error::{Result, check_count, check_places},
+    linear_algebra::{Matrix, check_finite, check_length, check_shape},
+    modes::Modes,
+};
 
 /// Pairs of an analysis mode with every test mode.
 #[derive(Debug, Clone, PartialEq)]

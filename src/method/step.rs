@@ -1,8 +1,10 @@
 //! The step (13): from derivatives to stiffness change factors, and the bounds that limit them.
 //! Tour: [chapter 4](crate::tour::chapter_04_step).
 
-use super::error::{Error, Result};
-use super::linear_algebra::Matrix;
+use super::{
+    error::{Error, Result},
+    linear_algebra::Matrix,
+};
 use serde::{Deserialize, Serialize};
 
 /// Gage in which a change of gage is measured by the step, in.
@@ -114,19 +116,7 @@ pub fn unlimited_factor(
     }
 }
 
-/// Limit of a parameter's factor in an iteration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Limit {
-    /// Nothing: the factor is the computed one.
-    None,
-    /// The bounds of one iteration's factor (0.55 and 1.50 in the paper).
-    Factor,
-    /// The bounds of the parameter's total, such as a gage limit.
-    Total,
-}
-
-/// New total factor of a parameter after a `fraction` of the limited step, and what limited it.
+/// New total factor of a parameter after a `fraction` of the limited step.
 ///
 /// The unlimited factor $c$ is first brought within the bounds of one iteration, then the step $c - 1$ is shortened, so that a
 /// halving shortens the step that is taken. `total` is the factor so far and `base` what it multiplies (the product of earlier
@@ -138,36 +128,20 @@ pub fn limited_factor(
     base: f64,
     factor_range: Bounds,
     total_range: Option<Bounds>,
-) -> (f64, Limit) {
+) -> f64 {
     let factor = factor_range.nearest(unlimited);
     let next = total * (1.0 + fraction * (factor - 1.0));
     match total_range {
-        Some(range) if !range.contains(base * next) => {
-            (range.nearest(base * next) / base, Limit::Total)
-        }
-        _ if factor == unlimited => (next, Limit::None),
-        _ => (next, Limit::Factor),
+        Some(range) if !range.contains(base * next) => range.nearest(base * next) / base,
+        _ => next,
     }
 }
 
-/// Way in which the changes of an inner loop's iterations come together on the stiffness stored since the last exact modes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Accumulation {
-    /// Changes add, $K_e \big(1 + \sum (c - 1)\big)$ and at least [`LEAST_SHARE`] of $K_e$, while gages multiply: ours, read from the
-    /// paper's Tables 9 to 12.
-    Sum,
-    /// Changes multiply as gages do: $K_e c_1 c_2$ after two steps.
-    Product,
-}
-
-impl Accumulation {
-    /// Factor $s_e$ on a stored share after a step that takes its gage's factor from `total` to `next`.
-    pub fn next_share_factor(self, share_factor: f64, total: f64, next: f64) -> f64 {
-        match self {
-            // `f64::max` would turn NaN into a number.
-            Self::Sum => (share_factor + next / total - 1.0).clamp(LEAST_SHARE, f64::INFINITY),
-            Self::Product => next,
-        }
-    }
+/// Factor $s_e$ on a stored share after a step that takes its gage's factor from `total` to `next`.
+///
+/// Ours, read from the paper's Tables 9 to 12: the changes of an inner loop's iterations add on the stiffness stored since the last
+/// exact modes, $K_e \big(1 + \sum (c - 1)\big)$ and at least [`LEAST_SHARE`] of $K_e$, while gages multiply.
+pub fn next_share_factor(share_factor: f64, total: f64, next: f64) -> f64 {
+    // `f64::max` would turn NaN into a number.
+    (share_factor + next / total - 1.0).clamp(LEAST_SHARE, f64::INFINITY)
 }

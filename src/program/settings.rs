@@ -2,8 +2,7 @@
 
 use clap::Args;
 use corfem::method::outer_loop::Settings;
-use corfem::method::step::Bounds;
-use corfem::method::step::{Accumulation, StepRule};
+use corfem::method::step::{Bounds, StepRule};
 use corfem::present::PresentError;
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
@@ -18,13 +17,8 @@ pub struct SettingsArguments {
     ///   matrix    by that and what it couples between test modes
     ///   relative  by the relative change alone, so that every element counts the same
     ///   gage      by the change of its gage, so that thin panels change more
-    #[arg(long, value_name = "RULE", value_parser = named::<StepRule>, verbatim_doc_comment)]
+    #[arg(long, value_name = "RULE", value_parser = named, verbatim_doc_comment)]
     rule: Option<StepRule>,
-    /// Combination of the changes of several iterations:
-    ///   sum       each changes the stiffness that the pass began with, as the paper prints
-    ///   product   each changes the present stiffness
-    #[arg(long, value_name = "HOW", value_parser = named::<Accumulation>, verbatim_doc_comment)]
-    accumulation: Option<Accumulation>,
     /// Relaxation R of a pass's first iteration, and of the others
     #[arg(long, value_name = "FIRST,OTHERS", value_parser = pair)]
     relaxation: Option<(f64, f64)>,
@@ -42,10 +36,10 @@ pub struct SettingsArguments {
     passes: Option<NonZeroUsize>,
 }
 
-/// A value by its name in JSON, so that what the report prints can be typed.
-fn named<T: for<'a> Deserialize<'a>>(text: &str) -> Result<T, Error> {
+/// A rule by its name in JSON, so that what the report prints can be typed.
+fn named(text: &str) -> Result<StepRule, Error> {
     let from: StrDeserializer<Error> = text.into_deserializer();
-    T::deserialize(from)
+    StepRule::deserialize(from)
 }
 
 impl SettingsArguments {
@@ -53,7 +47,6 @@ impl SettingsArguments {
     pub fn apply(&self, settings: &mut Settings) -> Result<(), PresentError> {
         let inner = &mut settings.inner;
         inner.step = self.rule.unwrap_or(inner.step);
-        inner.accumulation = self.accumulation.unwrap_or(inner.accumulation);
         if let Some((first, others)) = self.relaxation {
             (inner.first_relaxation, inner.relaxation) = (first, others);
         }

@@ -1,8 +1,8 @@
 //! Changes of mass: the recursion that follows them, and rigid-body modes beside the vibrations.
 
-use crate::method::appendix_c::{Number, Pencil};
+use crate::method::appendix_c::Pencil;
 use crate::method::error::{Error, positive};
-use crate::method::linear_algebra::check_shape;
+use crate::method::linear_algebra::{Number, check_shape};
 use crate::method::modes::mode;
 use crate::method::perturbation::{MOST_ORDERS, ROOT_TOLERANCE, Settled};
 use nalgebra::DMatrix;

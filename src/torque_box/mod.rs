@@ -158,20 +158,20 @@ impl Case {
             structure,
             t,
             self.reconstruction.mass(),
-            self.parameters(),
+            self.parameters(gages),
         )?)
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
+    fn parameters(&self, gages: &[f64]) -> Vec<Parameter> {
         if self.grouping == Grouping::Elements {
-            return self
-                .panels
-                .iter()
-                .map(|panel| Parameter {
-                    size_range: self.gage_range,
-                    ..Parameter::new(panel.label, &[panel.label])
-                })
-                .collect();
+            let panel = |(panel, gage): (&Panel, &f64)| Parameter {
+                factor_range: self.gage_range.map(|range| Bounds {
+                    lower: range.lower / gage,
+                    upper: range.upper / gage,
+                }),
+                ..Parameter::new(panel.label, &[panel.label])
+            };
+            return self.panels.iter().zip(gages).map(panel).collect();
         }
         // A group may have panels at both gage bounds, and no panel may leave them by more than their ratio.
         let ratio = |range: Bounds| Bounds {

@@ -49,6 +49,8 @@ pub struct CaseResult {
     pub ranges: Vec<Option<Bounds>>,
     /// Largest part of a test mode's generalized stiffness that each parameter had at first.
     pub seen: Vec<f64>,
+    /// Unlimited factors of the first iteration, one per parameter.
+    pub unlimited_factors: Vec<f64>,
     /// Errors of every test mode at the best factors.
     pub best_errors: Vec<ModeError>,
     /// Gages after every pass, in, elements 1 to 15.
@@ -70,14 +72,6 @@ impl CaseResult {
             [1.0, step.exp()].map(|change| gage * factor * change / TEST_GAGE - 1.0)
         });
         (self.case.grouping == Grouping::Elements).then(|| errors.collect())
-    }
-
-    /// Unlimited factors of the first iteration, one per parameter.
-    pub fn unlimited_factors(&self) -> &[f64] {
-        self.correlation
-            .passes
-            .first()
-            .map_or(&[], |pass| &pass.inner.first_unlimited_factors)
     }
 
     /// True if the run is that of the paper's Case 4: a single iteration that is to detect a modeling error, and corrects
@@ -108,12 +102,13 @@ pub fn run_case(
     let (model, test) = (case.model()?, case.test_modes()?);
     let by_gage = case.settings_by(StepRule::Gage).inner;
     let ranges = model.factor_ranges()?;
-    let (mut demands, mut seen) = (None, Vec::new());
+    let (mut demands, mut seen, mut unlimited_factors) = (None, Vec::new(), Vec::new());
     let correlation = correlate(
         |factors| -> Result<Model, CaseError> {
             let analysis = model.analyze(factors, &test, None)?;
             if demands.is_none() {
                 demands = Some(first_factors(&analysis, &by_gage)?);
+                unlimited_factors = first_factors(&analysis, &case.settings.inner)?;
                 let shares = analysis.test_shares().iter();
                 seen = shares.map(|share| share.diagonal().amax()).collect();
             }
@@ -132,13 +127,11 @@ pub fn run_case(
         .map(|pass| Ok(model.sizes(&pass.factors)?[..PANEL_COUNT].to_vec()));
     let pass_gages = pass_gages.collect::<Result<_, Error>>()?;
     let parameter_names: Vec<String> = model.parameters().iter().map(|p| p.name.clone()).collect();
-    let first = correlation.passes.first();
-    let asked = first.map_or(&[][..], |pass| &pass.inner.first_unlimited_factors);
     let anomaly = demands.and_then(|demands| {
         let (parameter, ratio) = stands_out(&demands)?;
         Some(Anomaly {
             parameter: parameter_names[parameter].clone(),
-            factor: *asked.get(parameter)?,
+            factor: unlimited_factors[parameter],
             ratio,
         })
     });
@@ -159,6 +152,7 @@ pub fn run_case(
         parameter_names,
         ranges,
         seen,
+        unlimited_factors,
         best_errors,
         pass_gages,
         anomaly,

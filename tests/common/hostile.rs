@@ -313,15 +313,11 @@ impl Draws {
             } else {
                 place + usize::from(place == 0)
             };
-            let mut range = || {
-                (draws.below(3) == 0).then(|| Bounds {
-                    lower: draws.number(),
-                    upper: draws.number(),
-                })
-            };
-            let (size_range, factor_range) = (range(), range());
+            let factor_range = (draws.below(3) == 0).then(|| Bounds {
+                lower: draws.number(),
+                upper: draws.number(),
+            });
             Parameter {
-                size_range,
                 factor_range,
                 ..Parameter::new("drawn", &[member])
             }

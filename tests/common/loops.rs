@@ -39,17 +39,15 @@ pub struct Given {
 /// iterations so that all three stops occur.
 fn settings() -> impl Strategy<Value = InnerSettings> {
     let rule = prop::sample::select(STEP_RULES.to_vec());
-    let accumulation = prop_oneof![Just(Accumulation::Sum), Just(Accumulation::Product)];
     (
         (0.3..3.0_f64, 0.3..3.0_f64),
         (0.5..0.95_f64, 1.05..2.0_f64),
         0.01..0.1_f64,
         (0..=5_usize, 0..=12_usize),
-        (rule, accumulation),
+        rule,
     )
         .prop_map(
-            |(relaxations, (lower, upper), tolerance, (halvings, iterations), rules)| {
-                let (step, accumulation) = rules;
+            |(relaxations, (lower, upper), tolerance, (halvings, iterations), step)| {
                 InnerSettings {
                     first_relaxation: relaxations.0,
                     relaxation: relaxations.1,
@@ -58,7 +56,6 @@ fn settings() -> impl Strategy<Value = InnerSettings> {
                     halvings,
                     iterations,
                     step,
-                    accumulation,
                 }
             },
         )

@@ -59,8 +59,8 @@ pub use crate::common::{
     relative_error, said,
     strategies::{orthogonal, point, positive_definite, rotation, symmetric},
     structures::{
-        condition, dense, factorized, grid, group, linkage, linkage_data, lumped_mass, sizes,
-        sizes_of, spring_chain, spring_stiffness,
+        condition, dense, factorized, grid, linkage, linkage_data, lumped_mass, sizes, sizes_of,
+        spring_chain, spring_stiffness,
     },
     test_files::{write_csv, write_universal},
     torque_boxes::{case, factors, with_every_element, with_parameters},
@@ -100,10 +100,11 @@ pub use corfem::{
     method::{
         analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings},
         appendix_a::{
-            Condensed, ElementMatrix, assemble, condense, element_matrices, generalized_stiffness,
+            Condensed, ElementMatrix, assemble, condense, condensed_mass, element_matrices,
+            generalized_stiffness,
         },
         appendix_b::{
-            ANTISYMMETRIC, LARGEST_SUSPENSION_RATIO, MeasuringPoint, ModeVerdict, Motion, Movement,
+            ANTISYMMETRIC, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, Movement,
             MovementLimits, SYMMETRIC, Supports, balance, examine, orthogonalize,
             rigid_body_vectors,
         },
@@ -127,7 +128,7 @@ pub use corfem::{
         },
         sorting::{Pairing, cross_orthogonality, pair_modes},
         step::{
-            Accumulation, Bounds, LEAST_SHARE, Limit, REFERENCE_GAGE, StepRule, limited_factor,
+            Bounds, LEAST_SHARE, REFERENCE_GAGE, StepRule, limited_factor, next_share_factor,
             unlimited_factor,
         },
         structure::{

@@ -45,14 +45,6 @@ pub fn spring_chain(springs: &[f64], constrained: [bool; 2]) -> Structure {
     rods(springs, constrained).unwrap()
 }
 
-/// Elements that change together, with bounds on their sizes.
-pub fn group(name: &str, elements: &[usize], size_range: Option<Bounds>) -> Parameter {
-    Parameter {
-        size_range,
-        ..Parameter::new(name, elements)
-    }
-}
-
 /// Three springs in a row of stiffness 2, 4 and 8, fixed at one end, with T and M the identity.
 pub fn chain_model(parameters: Vec<Parameter>) -> Result<FiniteElementModel, Error> {
     let identity = eye(3);

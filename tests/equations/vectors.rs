@@ -424,7 +424,7 @@ fn one_pass(given: &Value) -> Answer {
         "start_hz": start.modes.frequencies_hz(),
         "frequency_error": start.errors.frequency,
         "shape_error": start.errors.shape,
-        "unlimited_factors": inner.first_unlimited_factors,
+        "unlimited_factors": inner.iterations[0].unlimited_factors,
         "inner_error_sums": sums.collect_vec(),
         "factors": factors,
         "exact_hz": check.modes.frequencies_hz(),
@@ -462,7 +462,7 @@ fn limited_step(given: &Value) -> Answer {
     });
     let fraction = given["fraction"].as_f64().unwrap();
     let step = |e: usize| {
-        let (next, _) = limited_factor(
+        let next = limited_factor(
             unlimited[e],
             fraction,
             total[e],
@@ -470,10 +470,7 @@ fn limited_step(given: &Value) -> Answer {
             range,
             Some(total_range),
         );
-        (
-            next,
-            Accumulation::Sum.next_share_factor(shares[e], total[e], next),
-        )
+        (next, next_share_factor(shares[e], total[e], next))
     };
     let (factors, shares): (Vec<_>, Vec<_>) = (0..total.len()).map(step).unzip();
     Ok(json!({ "factors": factors, "share_factors": shares }))
@@ -516,7 +513,7 @@ fn examined(given: &Value) -> Answer {
     Ok(json!({
         "kept": found.kept,
         "omega_squared": found.modes.omega_squared().as_slice(),
-        "shape_movement": found.reports.iter().map(|report| report.movement.map_or(0.0, |movement| movement.shape)).collect_vec(),
+        "shape_movement": found.movement.iter().map(|of| of.map_or(0.0, |movement| movement.shape)).collect_vec(),
     }))
 }
 

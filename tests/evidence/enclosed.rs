@@ -127,7 +127,7 @@ fn assert_run(name: &str, test: &Modes, found: &Correlation, gages: &[Vec<f64>],
         let sums = steps.iter().map(|step| step.errors.sum()).collect_vec();
         let mut inner = pass.inner.last.modes.frequencies_hz();
         inner.sort_by(f64::total_cmp);
-        let asked = &pass.inner.first_unlimited_factors;
+        let asked = &pass.inner.iterations[0].unlimited_factors;
         for (number, found, exact) in [
             ("error_sums", &sums, &exact.error_sums),
             ("unlimited_factors", asked, &exact.unlimited_factors),

@@ -136,7 +136,7 @@ fn node_solves_the_pages_modes_as_the_program_does() {
     let (mut stiffness, mut before) = (vec![ones.clone()], &ones);
     let add = |shares: &[f64], from: &[f64], to: &[f64]| -> Vec<f64> {
         let ends = shares.iter().zip(from).zip(to);
-        ends.map(|((share, from), to)| Accumulation::Sum.next_share_factor(*share, *from, *to))
+        ends.map(|((share, from), to)| next_share_factor(*share, *from, *to))
             .collect()
     };
     assert_eq!(found["adds"].as_array().map(Vec::len), Some(31));

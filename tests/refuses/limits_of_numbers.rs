@@ -51,7 +51,7 @@ fn a_mass_too_large_for_a_number_is_refused() {
 #[test]
 fn a_factor_that_takes_a_size_beyond_the_largest_number_is_refused() {
     // The size is two.
-    let model = chain_model(vec![group("some", &[1], None)]).unwrap();
+    let model = chain_model(vec![Parameter::new("some", &[1])]).unwrap();
     assert!(model.sizes(&[f64::MAX / 2.0]).is_ok());
     assert_eq!(
         said(model.sizes(&[f64::MAX])),

@@ -21,7 +21,7 @@ fn first_step_over_newtons(
         ..InnerSettings::default()
     };
     let run = run(&problem, &[1.0], &[None], &scaled(settings, modes)).unwrap();
-    (run.first_unlimited_factors[0] - 1.0) / 0.1
+    (run.iterations[0].unlimited_factors[0] - 1.0) / 0.1
 }
 
 #[test]

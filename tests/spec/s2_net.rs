@@ -353,9 +353,16 @@ impl Run {
         let areas = [12.0, 10.0, 11.0, 13.0, 10.0, 12.5, 14.0, 10.5].map(|area| 1e-3 * area);
         let distribution = sensors_at(&[0, 2, 3, 5, 7], 8).dense().transpose();
         let masses = DMatrix::from_diagonal(&(1e-4 * dvector![1.0, 1.2, 0.9, 1.1, 0.7]));
-        let parameters = [&[1][..], &[3, 4], &[5], &[7, 8]].map(|labels| Parameter {
-            size_range: is_bounded.then_some(bounds),
-            ..Parameter::new("rods", labels)
+        let parameters = [&[1][..], &[3, 4], &[5], &[7, 8]].map(|labels| {
+            let first = labels.iter().map(|label| areas[label - 1]);
+            let (lower, upper) = (
+                bounds.lower / first.clone().fold(f64::MAX, f64::min),
+                bounds.upper / first.largest(),
+            );
+            Parameter {
+                factor_range: is_bounded.then_some(Bounds { lower, upper }),
+                ..Parameter::new("rods", labels)
+            }
         });
         let structure = rods(&areas, [true, false])?;
         let model = FiniteElementModel::new(structure, distribution, masses, parameters.to_vec())?;

@@ -353,16 +353,6 @@ fn millimeters_and_newtons_give_the_same_factors() {
                 let is_rod = element.kind == ElementKind::Rod;
                 element.size *= if is_rod { length * length } else { length };
             }
-            for range in given
-                .parameters
-                .iter_mut()
-                .flat_map(|of| &mut of.size_range)
-            {
-                *range = Bounds {
-                    lower: range.lower * length,
-                    upper: range.upper * length,
-                };
-            }
             given.mass *= force / length;
         },
         in_place,
@@ -406,11 +396,6 @@ fn a_panel_is_two_of_half_its_gage() {
             given.elements.extend(twins);
             for parameter in &mut given.parameters {
                 parameter.elements.push(parameter.elements[0] + 200);
-                let half = |range: Bounds| Bounds {
-                    lower: 0.5 * range.lower,
-                    upper: 0.5 * range.upper,
-                };
-                parameter.size_range = parameter.size_range.map(half);
             }
         },
         in_place,

@@ -54,36 +54,18 @@ properties! {
 }
 
 #[test]
-fn factor_ranges_are_size_bounds_over_first_sizes() {
+fn factor_ranges_are_those_of_the_parameters_and_keep_the_gages_of_the_box() {
     let bounds = |lower, upper| Some(Bounds { lower, upper });
-    let model = chain(vec![
-        Parameter {
-            size_range: bounds(1.0, 3.0),
-            ..Parameter::new(1, &[1])
-        },
-        Parameter::new(2, &[2]),
-        Parameter {
-            size_range: bounds(4.0, 8.0),
-            ..Parameter::new(3, &[3])
-        },
-    ]);
-    let found = model.unwrap().factor_ranges().unwrap();
-    assert_eq!(found, [bounds(0.5, 1.5), None, bounds(0.5, 1.0)]);
-    let both = Parameter {
-        factor_range: bounds(0.25, 1.25),
-        ..group("both", &[1, 2], bounds(1.0, 8.0))
+    let with = |element: usize, factor_range| Parameter {
+        factor_range,
+        ..Parameter::new(element, &[element])
     };
-    let factor_alone = Parameter {
-        factor_range: bounds(0.1, 7.0),
-        ..Parameter::new(3, &[3])
-    };
-    let found = chain(vec![both, factor_alone]).unwrap().factor_ranges();
-    assert_eq!(found.unwrap(), [bounds(0.5, 1.25), bounds(0.1, 7.0)]);
-    let together = chain(vec![group("all", &[1, 2, 3], bounds(1.0, 16.0))]);
-    assert_eq!(
-        together.unwrap().factor_ranges().unwrap(),
-        [bounds(0.5, 2.0)]
-    );
+    let ranges = [bounds(0.5, 1.5), None, bounds(0.5, 1.0)];
+    let parameters = (1..=3)
+        .zip(ranges)
+        .map(|(element, range)| with(element, range));
+    let found = chain(parameters.collect()).unwrap().factor_ranges();
+    assert_eq!(found.unwrap(), ranges);
     let paper = case_of(3).model().unwrap().factor_ranges().unwrap();
     assert_eq!(paper.len(), 15);
     assert_eq!(

@@ -56,7 +56,7 @@ fn one_factor_moves_every_element_of_a_group() {
     for number in CASES {
         let result = grouped(number);
         assert_eq!(result.parameter_names.len(), 3);
-        assert_eq!(result.unlimited_factors().len(), 3);
+        assert_eq!(result.unlimited_factors.len(), 3);
         let groups = by_geometry(&result.case);
         for (pass, gages) in result.correlation.passes.iter().zip(&result.pass_gages) {
             for (group, &factor) in groups.iter().zip(&pass.factors) {

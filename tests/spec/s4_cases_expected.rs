@@ -204,7 +204,7 @@ fn case_4_names_its_faulty_element() {
         let table = expected(reading);
         let result = run_by_reading(&case_of(4), reading).unwrap();
         assert_all_close(
-            result.unlimited_factors(),
+            &result.unlimited_factors,
             &list(&table, section, "unlimited_factors"),
             EXPECTED_HISTORY,
         );
@@ -214,7 +214,7 @@ fn case_4_names_its_faulty_element() {
             number(&table, section, "error_sum"),
             max_relative = EXPECTED_HISTORY
         );
-        let mut others = result.unlimited_factors().to_vec();
+        let mut others = result.unlimited_factors.clone();
         let factor = others.remove(7);
         assert_eq!(
             format!("{factor:.1} {:.1}", others.into_iter().largest()),
@@ -224,7 +224,7 @@ fn case_4_names_its_faulty_element() {
         let anomaly = result.anomaly.as_ref().unwrap();
         assert_eq!(
             (&*anomaly.parameter, anomaly.factor),
-            ("8", result.unlimited_factors()[7])
+            ("8", result.unlimited_factors[7])
         );
         assert_eq!(format!("{:.0}", anomaly.ratio), "59");
     }
@@ -245,7 +245,7 @@ fn other_cases_report_no_anomaly_by_any_reading() {
         for number in [1, 2, 3] {
             let result = run_by_reading(&case_of(number), reading).unwrap();
             // The largest factor stays near the next: what ANOMALY_RATIO lies between.
-            let mut factors = result.unlimited_factors().to_vec();
+            let mut factors = result.unlimited_factors.clone();
             factors.sort_by(f64::total_cmp);
             assert!(factors[14] / factors[13] < 1.3);
             assert_eq!(result.anomaly, None);

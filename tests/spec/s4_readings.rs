@@ -195,7 +195,7 @@ fn case_4_depends_on_two_close_modes() {
             .windows(2)
             .map(|pair| pair[1] / pair[0] - 1.0)
             .fold(f64::INFINITY, f64::min);
-        (result.unlimited_factors()[7], apart)
+        (result.unlimited_factors[7], apart)
     };
     // Half as thick, a little thicker: the two modes move apart, and the factor falls or even turns its sign.
     let (here, apart) = factor(0.0001);

@@ -19,9 +19,8 @@ fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {
             ..InnerSettings::default()
         };
         let settings = inner_for_modes(settings, modes);
-        let asked = run(&model, &[1.0; 15], &[None; 15], &settings)
-            .unwrap()
-            .first_unlimited_factors;
+        let run = run(&model, &[1.0; 15], &[None; 15], &settings).unwrap();
+        let asked = &run.iterations[0].unlimited_factors;
         let suspects = by_factor(&model, &settings).unwrap();
         for suspect in &suspects {
             assert_eq!(suspect.factor, asked[suspect.parameter], "case {number}");

@@ -6,7 +6,6 @@ use super::unlimited::unlimited_table;
 use super::{MODE_ERRORS, PERCENT, RMS_PERCENT, remarks};
 use corfem::method::analysis::State;
 use corfem::method::error_sum::Errors;
-use corfem::method::step::Accumulation;
 use corfem::method::structure::ElementKind;
 use corfem::present::PresentError;
 use corfem::present::table::{Cell, Digits, Table, numbers, percents};
@@ -169,7 +168,6 @@ pub fn settings_table(results: &[CaseResult]) -> Table {
         .headings(
             [
                 "Step",
-                "Changes",
                 "R",
                 "Limits",
                 "TOLI",
@@ -184,12 +182,6 @@ pub fn settings_table(results: &[CaseResult]) -> Table {
         let (settings, inner) = (&case.settings, &case.settings.inner);
         let words = [
             inner.step.name().to_owned(),
-            if inner.accumulation == Accumulation::Sum {
-                "add"
-            } else {
-                "multiply"
-            }
-            .to_owned(),
             format!("{} {}", inner.first_relaxation, inner.relaxation),
             format!("{} {}", inner.factor_range.lower, inner.factor_range.upper),
             format!("{} {}", inner.tolerance, settings.later_inner_tolerance),

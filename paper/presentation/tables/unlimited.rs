@@ -5,7 +5,7 @@ use corfem::torque_box::{CaseResult, Grouping};
 
 /// Unlimited stiffness change factors of the first iteration, and the elements they give away.
 pub fn unlimited_table(result: &CaseResult) -> Table {
-    let (case, factors) = (result.case.number, result.unlimited_factors());
+    let (case, factors) = (result.case.number, &result.unlimited_factors);
     let names = &result.parameter_names;
     let bounds = result.case.settings.inner.factor_range;
     let title = format!("Case {case}: unlimited stiffness change factors, first iteration");

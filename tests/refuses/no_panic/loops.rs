@@ -278,10 +278,8 @@ pub const LOOPS: &[Entry] = &[
         let comparison = comparison.with_component_weights(own)?;
         residuals(&comparison, &vec![ModeWeight::ONE; modes]).map(|found| found.data.into())
     }),
-    ("Accumulation::next_share_factor", |d| {
-        for accumulation in [Accumulation::Sum, Accumulation::Product] {
-            accumulation.next_share_factor(d.number(), d.number(), d.number());
-        }
+    ("step::next_share_factor", |d| {
+        next_share_factor(d.number(), d.number(), d.number());
         Ok(Vec::new())
     }),
 ];
