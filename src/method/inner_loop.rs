@@ -142,9 +142,6 @@ pub fn run(
 ) -> Result<InnerRun> {
     settings.check()?;
     check_length("parameter limits", total_ranges.len(), base.len())?;
-    for range in total_ranges.iter().flatten() {
-        Bounds::positive("parameter limits", range.lower, range.upper)?;
-    }
     let factors = vec![1.0; base.len()];
     let last = analysis.at(&factors)?;
     let mut run = InnerRun {

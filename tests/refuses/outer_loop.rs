@@ -125,15 +125,3 @@ fn there_must_be_bounds_or_none_for_every_parameter() {
         );
     }
 }
-
-#[test]
-fn bounds_must_be_in_order() {
-    let crossed = Some(Bounds {
-        lower: 2.0,
-        upper: 0.5,
-    });
-    assert_eq!(
-        said(correlate_with(analyzed, &[None, None, crossed], |_| {})),
-        "parameter limits: 2 to 0.5 is no range; the lower limit must be positive, the upper one larger and finite"
-    );
-}
