@@ -17,10 +17,11 @@
 //!   4. [`sorting`](method::sorting) (4) and [`error_sum`](method::error_sum) (5, 6): which mode is which, and how far apart;
 //!   5. [`perturbation`](method::perturbation) (7, 8): new modes after a change of stiffness, without an eigensolution;
 //!      [`appendix_c`](method::appendix_c): the same with changes of mass, and of complex modes;
-//!   6. [`step`](method::step) (13): from derivatives to stiffness factors and their limits;
-//!   7. [`analysis`](method::analysis) (9 to 12): four questions that the loops ask, and [`model`](method::model), which answers
-//!      them as the paper does;
-//!   8. [`inner_loop`](method::inner_loop) and [`outer_loop`](method::outer_loop).
+//!   6. [`changed_modes`](method::changed_modes) (9 to 11): frequencies and shapes of the new modes;
+//!   7. [`analysis`](method::analysis): four questions that the loops ask; [`derivatives`](method::derivatives) (12) and
+//!      [`step`](method::step) (13): from errors to stiffness factors and their limits;
+//!   8. [`model`](method::model), which answers the questions as the paper does;
+//!   9. [`inner_loop`](method::inner_loop) and [`outer_loop`](method::outer_loop).
 //!
 //!   Under them all lie [`error`](method::error) and [`linear_algebra`](method::linear_algebra).
 //! - [`sparse`]: the same analysis at any size, modes of whole models, counted, and their comparison at sensors.

@@ -1,6 +1,7 @@
 //! What is timed: the paper's nine-mode problem, and the passes of its cases.
 
-use corfem::method::analysis::{Analysis, DERIVATIVE_STEP};
+use corfem::method::analysis::Analysis;
+use corfem::method::derivatives::DERIVATIVE_STEP;
 use corfem::method::inner_loop::InnerSettings;
 use corfem::method::model::{FiniteElementModel, Model};
 use corfem::method::modes::Modes;

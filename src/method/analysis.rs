@@ -8,15 +8,6 @@ use super::{
     step::StepRule,
 };
 
-/// Relative change of a parameter's stiffness for a derivative.
-pub const DERIVATIVE_STEP: f64 = 0.001;
-
-/// Ours: separation of two modes, relative to the larger $\omega^2$, below which a difference holds them to their own shapes.
-///
-/// A step of [`DERIVATIVE_STEP`] couples two modes so close by a tenth and more, which is no longer first order. Where two
-/// roots meet their shapes have no derivative at all, while the roots still have one.
-pub const HELD_SEPARATION: f64 = 10.0 * DERIVATIVE_STEP;
-
 /// Modes at factors on the stored stiffness, beside the test modes.
 #[derive(Debug, Clone)]
 pub struct State {
@@ -54,28 +45,4 @@ pub trait Analysis {
 
     /// $\Delta k_e$ (12) of every parameter at a state, dimensionless, with the factors $g_e$ on gages since the exact modes.
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64>;
-}
-
-/// $\Delta k_e$ (12) of every parameter by a rule, from its relative stiffness on the test modes (g × g) and its gage (in).
-pub(crate) fn changes_by(
-    rule: StepRule,
-    test_shares: &[Matrix],
-    state: &State,
-    gages: &[f64],
-    gage_factors: &[f64],
-) -> Vec<f64> {
-    let stored = test_shares.iter().zip(&state.factors);
-    stored
-        .zip(gages.iter().zip(gage_factors))
-        .map(|((share, s), (gage, g))| DERIVATIVE_STEP * rule.measure(share, *s, gage * g))
-        .collect()
-}
-
-/// Change of stiffness or mass (n × n) without what couples modes closer than [`HELD_SEPARATION`], which keep their own shapes.
-pub fn without_close_couplings(omega_squared: &[f64], change: &Matrix) -> Matrix {
-    let k = omega_squared;
-    change.map_with_location(|i, j, entry| {
-        let is_close = i != j && (k[i] - k[j]).abs() < HELD_SEPARATION * k[i].max(k[j]);
-        if is_close { 0.0 } else { entry }
-    })
 }

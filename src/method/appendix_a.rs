@@ -15,7 +15,7 @@ use super::{
 const SMALLEST_PIVOT: f64 = 1e-13;
 
 /// Stiffness of one element of unit size at the free structural DOF it touches.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct ElementMatrix {
     /// The element's number.
     pub label: usize,
@@ -174,14 +174,4 @@ pub fn generalized_stiffness(
 ) -> Matrix {
     let own = structural_shapes.select_rows(&element.dof);
     size * symmetric_part(&congruence(&element.unit, &own))
-}
-
-/// Dynamic mass $M = B M_S B^t$ of a structural mass $M_S$ (free SDOF × free SDOF), for the $B^t$ of [`Condensed`] (A.9).
-///
-/// # Errors
-/// [`Error::WrongShape`] for a mass that does not fit.
-pub fn condensed_mass(mass: &Matrix, transformation: &Matrix) -> Result<Matrix> {
-    let free_count = transformation.nrows();
-    check_shape("structural mass", mass, free_count, free_count)?;
-    Ok(symmetric_part(&congruence(mass, transformation)))
 }

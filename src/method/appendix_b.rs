@@ -12,12 +12,12 @@
 //! the forces, which are then not zero at the dynamic DOF.
 
 use super::{
-    error::{Error, Result, at_least_one, positive},
+    error::{Result, at_least_one, positive, require},
     linear_algebra::{
         Matrix, check_finite, check_matrix, check_shape, check_symmetric, cholesky, congruence,
         pencil_eigen, symmetric_part,
     },
-    modes::{Modes, generalized_mass, solve},
+    modes::{Modes, generalized_mass, mode, solve},
     sorting::pair_modes,
     structure::Point,
 };
@@ -61,7 +61,7 @@ pub struct Balanced {
 ///
 /// # Errors
 /// [`Error::WrongShape`] and [`Error::Value`] for data that does not fit or is not finite; [`Error::NotPositiveDefinite`] when the
-/// balance equations are singular; [`Error::Supported`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a mode's
+/// balance equations are singular; [`Error::Value`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a mode's
 /// $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
 ///
 /// # Example
@@ -101,11 +101,15 @@ pub fn balance(
         motion_count,
     )?;
     let omega_squared = &raw.omega_squared;
-    for (mode, square) in omega_squared.iter().enumerate() {
+    for (place, square) in omega_squared.iter().enumerate() {
         let ratio = mu.amax() / square;
-        if ratio > LARGEST_SUSPENSION_RATIO {
-            return Err(Error::Supported { mode, ratio });
-        }
+        require(
+            ratio <= LARGEST_SUSPENSION_RATIO,
+            "rigid-body stiffness over inertia",
+            || mode(place),
+            ratio,
+            "at most 0.04, as on a free or softly suspended structure: supports balance the forces of any other",
+        )?;
     }
     let motions = rigid_body * &from_suspension;
     let inertia = motions.tr_mul(&(mass * &raw.shapes));
@@ -125,7 +129,7 @@ pub fn balance(
 }
 
 /// A dynamic degree of freedom: a measuring point and the direction measured there.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct MeasuringPoint {
     /// Position, in: x aft, y outboard, z up, from the reference axes.
     pub position: Point,
@@ -133,44 +137,30 @@ pub struct MeasuringPoint {
     pub direction: Unit<Point>,
 }
 
-/// A rigid-body motion, named by the force or moment that does work on it.
-#[derive(Debug, Clone, Copy)]
-pub enum Motion {
-    /// Translation along x: drag.
-    ForeAft,
-    /// Translation along y: side force.
-    Side,
-    /// Translation along z: vertical force.
-    Plunge,
-    /// Rotation about x, y towards z: rolling moment.
-    Roll,
-    /// Rotation about y, x towards z, which lifts the tail: pitching moment.
-    Pitch,
-    /// Rotation about z, x towards y: yawing moment.
-    Yaw,
-}
-
-/// The motions of the symmetric boundary condition: with z alone measured, $\lbrace 1 \rbrace$ and $\lbrace x \rbrace$ of (B.1) and (B.2).
-/// Where x is measured, add [`Motion::ForeAft`], which is symmetric too.
-pub const SYMMETRIC: [Motion; 2] = [Motion::Plunge, Motion::Pitch];
-
-/// The motions of the antisymmetric boundary condition. Where z alone is measured only [`Motion::Roll`] is seen, and
-/// the other two must be left out.
-pub const ANTISYMMETRIC: [Motion; 3] = [Motion::Side, Motion::Roll, Motion::Yaw];
-
-/// Rigid-body vectors $\Phi$ (points × motions): what a motion of 1 in, or of one radian in the linear theory, shows at a point
-/// $x$ in the direction $n$ measured there. That is the component of $n$ for a translation, and for a rotation about an axis $e$
-/// $n \cdot (e \times x) = e \cdot (x \times n)$. Translations have no unit, rotations are in inches per radian.
-pub fn rigid_body_vectors(motions: &[Motion], points: &[MeasuringPoint]) -> Matrix {
-    Matrix::from_fn(points.len(), motions.len(), |i, j| {
+/// Rigid-body vectors $\Phi$ (points × 6) of the motions along x, y and z (fore and aft, to the side, plunge) and about them (roll, pitch,
+/// yaw): what a motion of 1 in, or of one radian in the linear theory, shows at a point $x$ in the direction $n$ measured there.
+///
+/// That is the component of $n$ for a translation, and $n \cdot (e \times x) = e \cdot (x \times n)$ for a rotation about an axis $e$.
+/// Roll turns y towards z, yaw x towards y, and pitch x towards z, which lifts the tail. Translations have no unit, rotations are in
+/// inches per radian.
+pub fn rigid_body_vectors(points: &[MeasuringPoint]) -> Matrix {
+    Matrix::from_fn(points.len(), 6, |i, motion| {
         let MeasuringPoint {
             position,
             direction: n,
         } = points[i];
         let turn = position.cross(&n);
-        [n.x, n.y, n.z, turn.x, -turn.y, turn.z][motions[j] as usize]
+        [n.x, n.y, n.z, turn.x, -turn.y, turn.z][motion]
     })
 }
+
+/// Columns of the symmetric boundary condition, plunge and pitch: with z alone measured, $\lbrace 1 \rbrace$ and $\lbrace x \rbrace$ of
+/// (B.1) and (B.2). Where x is measured, add the first, which is symmetric too.
+pub const SYMMETRIC: [usize; 2] = [2, 4];
+
+/// Columns of the antisymmetric boundary condition, to the side, roll and yaw. Where z alone is measured only roll is seen, and the
+/// other two must be left out.
+pub const ANTISYMMETRIC: [usize; 3] = [1, 3, 5];
 
 /// Overlap of unit shapes that is the round-off of a product over some hundreds of DOF and counts as none: it would
 /// turn two modes of one frequency by any angle.

@@ -30,7 +30,7 @@ const MAGNITUDE_TIE: f64 = 1e-9;
 const SMALLEST_COSINE: f64 = 1e-7;
 
 /// Roots with right and left shapes, biorthogonal with respect to the stiffness and to $G$ (C.8 to C.10).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct LeftRightModes<T> {
     /// Roots $\lambda_i$ of $(K\lambda - G)v = 0$, s²; $1/\omega_i^2$ for a vibration.
     pub roots: Vector<T>,

@@ -41,11 +41,10 @@ pub enum Error {
         most: usize,
     },
     /// Bounds that are not positive and ascending, or that exclude where a factor starts, which is one.
-    #[error("{what}: {lower} to {upper} {}", if *lower > 0.0 && upper > lower && upper.is_finite() {
-        "exclude the starting factor 1"
-    } else {
-        "is no range; the lower limit must be positive, the upper one larger and finite"
-    })]
+    #[error(
+        "{what}: {lower} to {upper} is no range; the lower limit must be positive, the upper one larger and finite, and the starting \
+         factor 1 between them"
+    )]
     Range {
         what: String,
         lower: f64,
@@ -99,13 +98,6 @@ pub enum Error {
         last_change: f64,
         root_error: f64,
     },
-    /// A structure on supports, where the reactions balance the forces of a mode: the largest squared suspension frequency over
-    /// the mode's.
-    #[error(
-        "test mode {mode} (from zero): the rigid-body stiffness is {ratio:.3e} of the mode's inertia; on a free or softly \
-         suspended structure it is at most 0.04, and supports balance the forces of any other"
-    )]
-    Supported { mode: usize, ratio: f64 },
     /// A computation that a library could not finish, or whose result fails its own proof.
     #[error("{what}: {why}")]
     Failed { what: &'static str, why: String },

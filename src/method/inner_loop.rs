@@ -91,8 +91,6 @@ pub struct Iteration {
 /// The history of one inner loop.
 #[derive(Debug, Clone)]
 pub struct InnerRun {
-    /// Errors of the last exact solution, where the loop began.
-    pub start: Errors,
     /// Accepted steps.
     pub iterations: Vec<Iteration>,
     /// State where the loop ended, with the factors on the stored stiffness.
@@ -142,13 +140,11 @@ pub fn run(
 ) -> Result<InnerRun> {
     settings.check()?;
     check_length("parameter limits", total_ranges.len(), base.len())?;
-    let factors = vec![1.0; base.len()];
-    let last = analysis.at(&factors)?;
+    let ones = vec![1.0; base.len()];
     let mut run = InnerRun {
-        start: last.errors,
         iterations: Vec::new(),
-        last,
-        factors,
+        last: analysis.at(&ones)?,
+        factors: ones,
         stop: Stop::Iterations,
     };
     while run.iterations.len() < settings.iterations {
@@ -182,18 +178,19 @@ pub fn run(
 /// derivative can be taken.
 pub fn first_factors(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<f64>> {
     settings.check()?;
-    let state = analysis.at(&analysis.exact().factors)?;
-    Ok(direction(analysis, &state, &state.factors, true, settings)?.unlimited_factors)
+    let ones = vec![1.0; analysis.exact().factors.len()];
+    let [.., unlimited] = direction(analysis, &analysis.at(&ones)?, &ones, true, settings)?;
+    Ok(unlimited)
 }
 
-/// Derivatives (12) and the factors of (13) at a state: an iteration whose step is yet to come.
+/// $\Delta e$ and $\Delta k$ of every parameter (12) at a state, and the factors of (13).
 fn direction(
     analysis: &dyn Analysis,
     state: &State,
     factors: &[f64],
     is_first: bool,
     settings: &InnerSettings,
-) -> Result<Iteration> {
+) -> Result<[Vec<f64>; 3]> {
     let error_changes = analysis.error_changes(state)?;
     let stiffness_changes = analysis.stiffness_changes(state, factors, settings.step);
     let relaxation = if is_first {
@@ -205,14 +202,8 @@ fn direction(
         unlimited_factor(*error, *stiffness, state.errors.sum(), relaxation)
     };
     let changes = error_changes.iter().zip(&stiffness_changes);
-    Ok(Iteration {
-        unlimited_factors: changes.map(factor).collect(),
-        error_changes,
-        stiffness_changes,
-        halvings: 0,
-        factors: Vec::new(),
-        errors: state.errors,
-    })
+    let unlimited_factors = changes.map(factor).collect();
+    Ok([error_changes, stiffness_changes, unlimited_factors])
 }
 
 /// Tries the limited step, then its halvings, and returns the first that lowers the error sum. When modes come too close in
@@ -220,7 +211,7 @@ fn direction(
 fn lowering_step(
     analysis: &dyn Analysis,
     InnerRun { last, factors, .. }: &InnerRun,
-    mut iteration: Iteration,
+    [error_changes, stiffness_changes, unlimited_factors]: [Vec<f64>; 3],
     base: &[f64],
     total_ranges: &[Option<Bounds>],
     settings: &InnerSettings,
@@ -229,14 +220,21 @@ fn lowering_step(
     for halvings in 0..=settings.halvings {
         let fraction = 0.5_f64.powi(halvings as i32);
         let limited = |e: usize| {
-            let (c, range) = (iteration.unlimited_factors[e], settings.factor_range);
+            let (c, range) = (unlimited_factors[e], settings.factor_range);
             limited_factor(c, fraction, factors[e], base[e], range, total_ranges[e])
         };
-        iteration.factors = (0..factors.len()).map(limited).collect();
-        let share = |e: usize| next_share_factor(last.factors[e], factors[e], iteration.factors[e]);
+        let next: Vec<f64> = (0..factors.len()).map(limited).collect();
+        let share = |e: usize| next_share_factor(last.factors[e], factors[e], next[e]);
         match analysis.at(&(0..factors.len()).map(share).collect::<Vec<_>>()) {
             Ok(lower) if lower.errors.sum() < last.errors.sum() => {
-                (iteration.halvings, iteration.errors) = (halvings, lower.errors);
+                let iteration = Iteration {
+                    error_changes,
+                    stiffness_changes,
+                    unlimited_factors,
+                    halvings,
+                    factors: next,
+                    errors: lower.errors,
+                };
                 return Ok(Some((iteration, lower)));
             }
             // Uphill, or too far for the perturbation: a shorter step may do.

@@ -4,9 +4,6 @@
 //! numbers of their equations; names and signatures are in words. What is no sentence of the paper is marked *ours*. Nothing here
 //! knows of the other rooms.
 
-pub mod error;
-pub mod linear_algebra;
-
 pub mod structure;
 pub mod elements;
 pub mod appendix_a;
@@ -16,8 +13,13 @@ pub mod sorting;
 pub mod error_sum;
 pub mod perturbation;
 pub mod appendix_c;
-pub mod step;
+pub mod changed_modes;
 pub mod analysis;
+pub mod derivatives;
+pub mod step;
 pub mod model;
 pub mod inner_loop;
 pub mod outer_loop;
+
+pub mod error;
+pub mod linear_algebra;

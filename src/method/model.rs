@@ -2,26 +2,26 @@
 //! Tour: [chapter 11](crate::tour::chapter_11_own_structure).
 
 use super::{
-    analysis::{Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings},
+    analysis::{Analysis, State},
     appendix_a::{
         Condensed, ElementMatrix, assemble, condense, element_matrices, generalized_stiffness,
     },
+    changed_modes::changed_modes,
+    derivatives::{DERIVATIVE_STEP, error_change, stiffness_changes},
     error::{Error, Result, at_least_one, positive},
     error_sum::errors,
     linear_algebra::{
-        Matrix, check_finite, check_length, check_matrix, check_shape, check_symmetric, cholesky,
-        congruence, symmetric_part,
+        Matrix, check_length, check_matrix, check_shape, check_symmetric, cholesky, congruence,
+        symmetric_part,
     },
     modes::{Modes, solve},
-    perturbation::{first_order, recursive_1_converged},
     sorting::{cross_orthogonality, pair_modes},
     step::{Bounds, REFERENCE_GAGE, StepRule},
     structure::{DIRECTIONS, Structure},
 };
-use std::collections::HashMap;
 
 /// Elements whose stiffness is scaled by one factor: a single one, or a substructure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Parameter {
     /// Its name in reports.
     pub name: String,
@@ -113,23 +113,20 @@ impl FiniteElementModel {
         check_matrix("load distribution", &load_distribution, free, dynamic)?;
         cholesky("dynamic mass", &mass, 0.0)?;
         let element_matrices: Vec<_> = element_matrices(&structure).collect();
-        for element in &element_matrices {
-            check_finite("element stiffness", &element.unit)?;
-        }
         at_least_one("parameters", parameters.len())?;
-        let labels = structure.elements().iter().map(|element| element.label);
-        let row_of: HashMap<usize, usize> = labels.zip(0..).collect();
-        let (mut rows, mut first_with, what) = (Vec::new(), HashMap::new(), "element");
+        let (mut rows, mut owners) = (Vec::new(), vec![None; element_matrices.len()]);
         for Parameter { name, elements, .. } in &parameters {
             at_least_one("elements of a parameter", elements.len())?;
             let row = |&label: &usize| {
-                if let Some(first) = first_with.insert(label, name) {
-                    let owner = format!("parameters {first} and {name}");
-                    return Err(Error::Duplicate { owner, what, label });
-                }
-                let owner = format!("parameter {name}");
-                let missing = Error::Unknown { owner, what, label };
-                row_of.get(&label).copied().ok_or(missing)
+                let (what, owner) = ("element", format!("parameter {name}"));
+                let mut all = structure.elements().iter();
+                let row = all.position(|element| element.label == label);
+                let row = row.ok_or(Error::Unknown { owner, what, label })?;
+                let Some(first) = owners[row].replace(name) else {
+                    return Ok(row);
+                };
+                let owner = format!("parameters {first} and {name}");
+                Err(Error::Duplicate { owner, what, label })
             };
             rows.push(elements.iter().map(row).collect::<Result<_, _>>()?);
         }
@@ -294,7 +291,7 @@ impl FiniteElementModel {
 }
 
 /// A model given by its matrices at the dynamic DOF, whatever made them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct DynamicModel {
     /// Dynamic stiffness $K_D$, lbf/in (d × d).
     pub stiffness: Matrix,
@@ -359,6 +356,7 @@ pub struct Model {
     cross: Matrix,
     shares: Vec<Matrix>,
     test_shares: Vec<Matrix>,
+    /// Mean gage (in) or area (in²) of every parameter's elements; [`REFERENCE_GAGE`] for one that has none.
     pub(crate) gages: Vec<f64>,
 }
 
@@ -383,11 +381,6 @@ impl Model {
     pub fn test_shares(&self) -> &[Matrix] {
         &self.test_shares
     }
-
-    /// Mean gage (in) or area (in²) of every parameter's elements; [`REFERENCE_GAGE`] for one that has none.
-    pub fn gages(&self) -> &[f64] {
-        &self.gages
-    }
 }
 
 impl Analysis for Model {
@@ -395,21 +388,15 @@ impl Analysis for Model {
         &self.exact
     }
 
-    /// Recursive 1 (C.22) carried until its roots have settled, for $\beta = \sum_e (s_e - 1) V^t K_e V$.
+    /// The modes after $\beta = \sum_e (s_e - 1) V^t K_e V$.
     fn at(&self, factors: &[f64]) -> Result<State> {
         check_length("parameter factors", factors.len(), self.shares.len())?;
-        let (v, k) = (&self.exact.modes.shapes, &self.exact.modes.omega_squared);
-        let mut beta = Matrix::zeros(k.len(), k.len());
+        let before = &self.exact.modes;
+        let mut beta = Matrix::zeros(before.len(), before.len());
         for (share, s) in self.shares.iter().zip(factors) {
             beta += (s - 1.0) * share;
         }
-        let perturbed = recursive_1_converged(k, &beta)?.perturbed;
-        // V p of unit generalized mass (9, 11), with ω² = 1/γ (10).
-        let mut p = perturbed.shapes;
-        for mut shape in p.column_iter_mut() {
-            shape.normalize_mut();
-        }
-        let modes = Modes::new(perturbed.roots.map(f64::recip), v * &p)?;
+        let (modes, p) = changed_modes(before, &beta)?;
         let pairing = pair_modes(&p.tr_mul(&self.cross))?;
         let errors = errors(&modes, &pairing, &self.test)?;
         Ok(State {
@@ -421,28 +408,19 @@ impl Analysis for Model {
         })
     }
 
-    /// For each parameter, $\beta = 0.001 s_e V^t K_e V$ with the present modes $V$; roots and shapes follow by first order
-    /// (C.20, C.21) and the error sum is taken anew with the present pairing.
+    /// For each parameter, $\beta = 0.001 s_e V^t K_e V$ with the present modes $V$.
     fn error_changes(&self, state: &State) -> Result<Vec<f64>> {
-        let (p, v) = (&state.generalized_shapes, &state.modes.shapes);
-        let k = &state.modes.omega_squared;
-        check_shape("shapes of the state", p, self.exact.modes.len(), k.len())?;
+        let (p, count) = (&state.generalized_shapes, state.modes.len());
+        check_shape("shapes of the state", p, self.exact.modes.len(), count)?;
         check_length("parameter factors", state.factors.len(), self.shares.len())?;
         let change = |(share, s): (&Matrix, &f64)| {
             let beta = DERIVATIVE_STEP * *s * congruence(share, p);
-            let perturbed = first_order(k, &without_close_couplings(k.as_slice(), &beta))?;
-            // First order has refused what is no mode.
-            let modes = Modes {
-                omega_squared: perturbed.roots.map(f64::recip),
-                shapes: v * perturbed.shapes,
-            };
-            let errors = errors(&modes, &state.pairing, &self.test)?;
-            Ok(errors.sum() - state.errors.sum())
+            error_change(state, &beta, &self.test)
         };
         self.shares.iter().zip(&state.factors).map(change).collect()
     }
 
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
-        changes_by(rule, &self.test_shares, state, &self.gages, gage_factors)
+        stiffness_changes(rule, &self.test_shares, state, &self.gages, gage_factors)
     }
 }

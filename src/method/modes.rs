@@ -129,7 +129,8 @@ impl Modes {
 }
 
 /// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale. Its off-diagonal entries
-/// are the integrals of (B.5), which vanish for orthogonal modes.
+/// are the integrals of (B.5), which vanish for orthogonal modes. Of a structural mass $M_S$ and the $B^t$ of
+/// [`condense`](super::appendix_a::condense) it is the dynamic mass $B M_S B^t$ (A.9).
 ///
 /// # Errors
 /// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::Value`] for a product that is not finite.

@@ -156,9 +156,8 @@ pub fn correlate<A: Analysis, E: From<Error>>(
     let initial = analysis.exact().clone();
     let mut inner_settings = settings.inner.clone();
     let mut passes: Vec<Pass> = Vec::new();
-    let mut converged = settings.are_met_by(&initial.errors);
     while passes.len() < settings.most_passes
-        && (passes.len() < settings.least_passes || !converged)
+        && (passes.len() < settings.least_passes || !settings.are_met_by(&analysis.exact().errors))
     {
         let inner = match run(&analysis, &factors, total_ranges, &inner_settings) {
             Ok(inner) => inner,
@@ -175,7 +174,6 @@ pub fn correlate<A: Analysis, E: From<Error>>(
             factors: factors.clone(),
             inner,
         };
-        converged = settings.are_met_by(&pass.check.errors);
         let is_last = !go_on(passes.len() + 1, &pass) || pass.inner.iterations.is_empty();
         passes.push(pass);
         if is_last {

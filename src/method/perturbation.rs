@@ -22,20 +22,6 @@ pub const SMALLEST_SEPARATION: f64 = 1e-9;
 pub const ROOT_TOLERANCE: f64 = 1e-13;
 /// Most orders of Recursive 1.
 pub const MOST_ORDERS: usize = 60;
-/// Relative change of a root in the last order allowed above which a recursion has not settled: a thousandth of an error sum of
-/// some percent. How far a slow recursion still has to go, its residuals tell.
-pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
-
-/// Relative error of a root up to which residuals prove it: half as much in nine frequencies moves the error sum by less than a
-/// hundredth of the inner loop's tolerance.
-pub const LARGEST_ROOT_ERROR: f64 = 1e-4;
-
-/// One minus the cosine of two generalized shapes below which they are those of one mode, if their roots agree to [`SAME_ROOT`]:
-/// where roots have settled to 1e-6, shapes of one mode agree to better than a hundredth, and those of two modes are orthogonal.
-const SAME_SHAPE: f64 = 1e-2;
-/// Relative distance of two roots below which they are one.
-const SAME_ROOT: f64 = 1e-3;
-
 /// Roots and generalized shapes after a change; complex where [`appendix_c`](crate::method::appendix_c) works on complex numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Perturbed<T = f64> {
@@ -43,80 +29,6 @@ pub struct Perturbed<T = f64> {
     pub roots: Vector<T>,
     /// Generalized shapes $p$ (n × n): column $j$ is mode $j$ in terms of the modes before the change, $p_{jj} = 1$.
     pub shapes: Matrix<T>,
-}
-
-/// Result of a recursion that goes on until its roots settle.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Settled<T = f64> {
-    /// Roots and shapes of the last order.
-    pub perturbed: Perturbed<T>,
-    /// The last order.
-    pub order: usize,
-    /// Largest relative change of a root in it: how far the recursion may still have had to go.
-    pub last_change: f64,
-    /// Bound on the relative error of every root.
-    pub root_error: f64,
-}
-
-impl<T: Number> Settled<T> {
-    /// Accepts a recursion on $(A\gamma - G)p = 0$ whose roots have settled, or nearly so, on as many modes as there are, and are proven
-    /// by their residuals: a strong change can lead two modes to one, and then another is missed.
-    ///
-    /// With $E = (AP)^{-1}(GP - AP\Gamma)$ the exact roots are the eigenvalues of $\Gamma + E$. By Gershgorin's theorem they lie in discs
-    /// about the $\gamma_j$, as many in every group of discs as it has members, of radius
-    ///
-    /// $$ |\gamma_j| \sum_s |E_{js}| / \sqrt{|\gamma_j \gamma_s|} . $$
-    pub(crate) fn prove(
-        perturbed: Perturbed<T>,
-        (order, last_change): (usize, f64),
-        a: &Matrix<T>,
-        g: &Matrix<T>,
-    ) -> Result<Self> {
-        let Perturbed { roots, shapes } = &perturbed;
-        let ap = a * shapes;
-        let residual = g * shapes - &ap * Matrix::from_diagonal(roots);
-        // A root below round-off of the largest counts as that.
-        let sizes = roots.map(T::modulus);
-        let floor = f64::EPSILON * sizes.max();
-        let scale = sizes.map(|size| size.max(floor).sqrt().recip());
-        let of_roots = &scale * scale.transpose();
-        let radius = |e: Matrix<T>| e.map(T::modulus).component_mul(&of_roots).column_sum();
-        // NaN proves nothing, and has not settled either.
-        let radii = ap
-            .lu()
-            .solve(&residual)
-            .map(radius)
-            .filter(|it| !it.sum().is_nan());
-        let root_error = radii.map_or(f64::INFINITY, |radii| radii.max());
-        let is_settled = last_change <= LARGEST_UNSETTLED_CHANGE;
-        for second in 0..roots.len() {
-            for first in (0..second).filter(|_| is_settled) {
-                let (p, q) = (shapes.column(first), shapes.column(second));
-                let cosine = p.dotc(&q).modulus() / (p.norm() * q.norm());
-                let separation = (roots[second] / roots[first] - T::one()).modulus();
-                if 1.0 - cosine < SAME_SHAPE && separation < SAME_ROOT {
-                    return Err(Error::CoalescingModes {
-                        first,
-                        second,
-                        separation,
-                    });
-                }
-            }
-        }
-        match is_settled && root_error <= LARGEST_ROOT_ERROR {
-            true => Ok(Self {
-                perturbed,
-                order,
-                last_change,
-                root_error,
-            }),
-            false => Err(Error::UnsettledRoots {
-                orders: order,
-                last_change,
-                root_error,
-            }),
-        }
-    }
 }
 
 /// First order (C.20, C.21):
@@ -273,5 +185,93 @@ pub(crate) fn component<T: Number>(sum: T, a: T, b: T, modes: [usize; 2]) -> Res
             second,
             separation,
         }),
+    }
+}
+
+/// Relative change of a root in the last order allowed above which a recursion has not settled: a thousandth of an error sum of
+/// some percent. How far a slow recursion still has to go, its residuals tell.
+pub const LARGEST_UNSETTLED_CHANGE: f64 = 1e-6;
+
+/// Relative error of a root up to which residuals prove it: half as much in nine frequencies moves the error sum by less than a
+/// hundredth of the inner loop's tolerance.
+pub const LARGEST_ROOT_ERROR: f64 = 1e-4;
+
+/// One minus the cosine of two generalized shapes below which they are those of one mode, if their roots agree to [`SAME_ROOT`]:
+/// where roots have settled to 1e-6, shapes of one mode agree to better than a hundredth, and those of two modes are orthogonal.
+const SAME_SHAPE: f64 = 1e-2;
+/// Relative distance of two roots below which they are one.
+const SAME_ROOT: f64 = 1e-3;
+
+/// Result of a recursion that goes on until its roots settle.
+#[derive(Debug, Clone)]
+pub struct Settled<T = f64> {
+    /// Roots and shapes of the last order.
+    pub perturbed: Perturbed<T>,
+    /// The last order.
+    pub order: usize,
+    /// Largest relative change of a root in it: how far the recursion may still have had to go.
+    pub last_change: f64,
+    /// Bound on the relative error of every root.
+    pub root_error: f64,
+}
+
+impl<T: Number> Settled<T> {
+    /// Accepts a recursion on $(A\gamma - G)p = 0$ whose roots have settled, or nearly so, on as many modes as there are, and are proven
+    /// by their residuals: a strong change can lead two modes to one, and then another is missed.
+    ///
+    /// With $E = (AP)^{-1}(GP - AP\Gamma)$ the exact roots are the eigenvalues of $\Gamma + E$. By Gershgorin's theorem they lie in discs
+    /// about the $\gamma_j$, as many in every group of discs as it has members, of radius
+    ///
+    /// $$ |\gamma_j| \sum_s |E_{js}| / \sqrt{|\gamma_j \gamma_s|} . $$
+    pub(crate) fn prove(
+        perturbed: Perturbed<T>,
+        (order, last_change): (usize, f64),
+        a: &Matrix<T>,
+        g: &Matrix<T>,
+    ) -> Result<Self> {
+        let Perturbed { roots, shapes } = &perturbed;
+        let ap = a * shapes;
+        let residual = g * shapes - &ap * Matrix::from_diagonal(roots);
+        // A root below round-off of the largest counts as that.
+        let sizes = roots.map(T::modulus);
+        let floor = f64::EPSILON * sizes.max();
+        let scale = sizes.map(|size| size.max(floor).sqrt().recip());
+        let of_roots = &scale * scale.transpose();
+        let radius = |e: Matrix<T>| e.map(T::modulus).component_mul(&of_roots).column_sum();
+        // NaN proves nothing, and has not settled either.
+        let radii = ap
+            .lu()
+            .solve(&residual)
+            .map(radius)
+            .filter(|it| !it.sum().is_nan());
+        let root_error = radii.map_or(f64::INFINITY, |radii| radii.max());
+        let is_settled = last_change <= LARGEST_UNSETTLED_CHANGE;
+        for second in 0..roots.len() {
+            for first in (0..second).filter(|_| is_settled) {
+                let (p, q) = (shapes.column(first), shapes.column(second));
+                let cosine = p.dotc(&q).modulus() / (p.norm() * q.norm());
+                let separation = (roots[second] / roots[first] - T::one()).modulus();
+                if 1.0 - cosine < SAME_SHAPE && separation < SAME_ROOT {
+                    return Err(Error::CoalescingModes {
+                        first,
+                        second,
+                        separation,
+                    });
+                }
+            }
+        }
+        match is_settled && root_error <= LARGEST_ROOT_ERROR {
+            true => Ok(Self {
+                perturbed,
+                order,
+                last_change,
+                root_error,
+            }),
+            false => Err(Error::UnsettledRoots {
+                orders: order,
+                last_change,
+                root_error,
+            }),
+        }
     }
 }

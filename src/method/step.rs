@@ -84,7 +84,7 @@ impl StepRule {
         match self {
             Self::Matrix => share_factor * test_share.norm(),
             Self::Own => {
-                let own = (0..).map_while(|j| test_share.get((j, j)));
+                let own = test_share.iter().step_by(test_share.nrows() + 1);
                 share_factor * own.map(|kappa| kappa * kappa).sum::<f64>().sqrt()
             }
             Self::Relative => 1.0,

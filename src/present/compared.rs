@@ -1,7 +1,7 @@
 //! A test beside the first and the corrected model: rows of modes and errors, agreement of shapes, and derivatives.
 
 use crate::job::HeldOut;
-use crate::method::analysis::DERIVATIVE_STEP;
+use crate::method::derivatives::DERIVATIVE_STEP;
 use crate::method::error::Error;
 use crate::method::error_sum::Errors;
 use crate::method::modes::Modes;

@@ -7,10 +7,9 @@ use super::mass_changes::{
 };
 use super::place::{Place, added, couplings};
 use super::share::{ParameterMatrix, Share};
-use crate::method::analysis::{
-    Analysis, DERIVATIVE_STEP, State, changes_by, without_close_couplings,
-};
+use crate::method::analysis::{Analysis, State};
 use crate::method::appendix_c::Pencil;
+use crate::method::derivatives::{DERIVATIVE_STEP, stiffness_changes, without_close_couplings};
 use crate::method::error::{Error, require};
 use crate::method::error_sum::{Errors, ModeError, errors, mode_errors};
 use crate::method::linear_algebra::{check_length, check_shape};
@@ -364,7 +363,7 @@ impl From<&Model> for SensorModel {
             moves: moves_of(&shares, &exact.modes),
             shares,
             test_shares: model.test_shares().to_vec(),
-            gages: model.gages().to_vec(),
+            gages: model.gages.clone(),
             slopes: vec![None; exact.modes.len()],
             place: None,
             exact,
@@ -419,7 +418,7 @@ impl Analysis for SensorModel {
     }
 
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
-        changes_by(rule, &self.test_shares, state, &self.gages, gage_factors)
+        stiffness_changes(rule, &self.test_shares, state, &self.gages, gage_factors)
     }
 }
 

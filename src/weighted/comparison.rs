@@ -2,9 +2,10 @@
 //! the errors of components.
 
 use super::close_modes::{members, turned};
-use crate::method::analysis::State;
 #[cfg(feature = "program")]
-use crate::method::analysis::{Analysis, DERIVATIVE_STEP};
+use crate::method::analysis::Analysis;
+use crate::method::analysis::State;
+use crate::method::derivatives::DERIVATIVE_STEP;
 use crate::method::error::{Error, check_count, positive, require};
 use crate::method::error_sum::{Errors, ModeError, mode_errors};
 use crate::method::linear_algebra::check_shape;

@@ -1,6 +1,7 @@
 //! A case opened up: its matrices and every iteration, for a program in another language to be checked against.
 
 use crate::paper::json::iteration;
+use corfem::method::analysis::State;
 use corfem::method::inner_loop::Iteration;
 use corfem::method::modes::solve;
 use corfem::method::outer_loop::Pass;
@@ -23,6 +24,8 @@ use std::iter::once;
 pub fn dump(case: &Case) -> Result<String, PresentError> {
     let (model, result) = (case.model()?, run_case(case, |_, _| {})?);
     let (names, passes) = (&result.parameter_names, &result.correlation.passes);
+    let checks = passes.iter().map(|pass| &pass.check);
+    let starts = once(&result.correlation.initial).chain(checks);
     let first = vec![1.0; names.len()];
     let mut analyses = Vec::new();
     for factors in once(&first).chain(passes.iter().map(|pass| &pass.factors)) {
@@ -55,12 +58,12 @@ pub fn dump(case: &Case) -> Result<String, PresentError> {
             "T": matrix_rows(model.load_distribution()),
             "test": {"frequencies_hz": result.test.frequencies_hz(), "V_G": matrix_rows(result.test.shapes())},
             "analyses": analyses,
-            "passes": passes.iter().map(pass).collect::<Value>(),
+            "passes": starts.zip(passes).map(pass).collect::<Value>(),
         }),
     )
 }
 
-fn pass(pass: &Pass) -> Value {
+fn pass((start, pass): (&State, &Pass)) -> Value {
     // With the derivatives where it began.
     let whole = |step: &Iteration| {
         let mut value = iteration(step);
@@ -69,7 +72,7 @@ fn pass(pass: &Pass) -> Value {
         value
     };
     json!({
-        "start_error_sum": pass.inner.start.sum(),
+        "start_error_sum": start.errors.sum(),
         "iterations": pass.inner.iterations.iter().map(whole).collect::<Value>(),
         "stop": pass.inner.stop,
         "exact_error_sum": pass.check.errors.sum(),

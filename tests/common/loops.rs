@@ -92,8 +92,8 @@ pub fn given() -> impl Strategy<Value = Given> {
 }
 
 /// Every accepted step lowers the error sum.
-pub fn assert_error_sum_only_falls(run: &InnerRun) {
-    let mut before = run.start.sum();
+pub fn assert_error_sum_only_falls(problem: &Model, run: &InnerRun) {
+    let mut before = problem.exact().errors.sum();
     for iteration in &run.iterations {
         assert!(
             iteration.errors.sum() < before,

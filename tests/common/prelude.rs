@@ -98,17 +98,17 @@ pub use corfem::{
         verdict::{End, Verdict},
     },
     method::{
-        analysis::{Analysis, DERIVATIVE_STEP, State, without_close_couplings},
+        analysis::{Analysis, State},
         appendix_a::{
-            Condensed, ElementMatrix, assemble, condense, condensed_mass, element_matrices,
-            generalized_stiffness,
+            Condensed, ElementMatrix, assemble, condense, element_matrices, generalized_stiffness,
         },
         appendix_b::{
-            ANTISYMMETRIC, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Motion, Movement,
-            MovementLimits, SYMMETRIC, Supports, balance, examine, orthogonalize,
-            rigid_body_vectors,
+            ANTISYMMETRIC, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Movement, MovementLimits,
+            SYMMETRIC, Supports, balance, examine, orthogonalize, rigid_body_vectors,
         },
         appendix_c::{self, LeftRightModes, Pencil},
+        changed_modes::changed_modes,
+        derivatives::{DERIVATIVE_STEP, error_change, without_close_couplings},
         elements::{
             corner_forces, energy_coefficient, mean_plane, membrane, rod, shear_panel, triangle,
             unit_stiffness,

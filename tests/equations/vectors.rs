@@ -571,7 +571,10 @@ fn kind(error: &Error, function: &Value) -> &'static str {
         Error::CoalescingModes { .. } => "close modes",
         Error::UnsettledRoots { .. } => "unsettled roots",
         Error::NotPositiveDefinite { .. } => "not definite",
-        Error::Supported { .. } => "supported",
+        Error::Value {
+            what: "rigid-body stiffness over inertia",
+            ..
+        } => "supported",
         _ => "of no kind",
     }
 }

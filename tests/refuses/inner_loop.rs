@@ -84,7 +84,7 @@ fn limits_must_be_in_order() {
         assert_eq!(
             said(refused),
             format!(
-                "factor limits: {lower} to {upper} is no range; the lower limit must be positive, the upper one larger and finite"
+                "factor limits: {lower} to {upper} is no range; the lower limit must be positive, the upper one larger and finite, and the starting factor 1 between them"
             )
         );
     }

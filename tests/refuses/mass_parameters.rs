@@ -69,10 +69,10 @@ fn bounds_on_masses_are_refused_by_their_parameter() {
     assert_eq!(bounded(0.5, 0.9999999999999999), "an answer");
     assert_eq!(
         bounded(1.5, 2.0),
-        "factor of parameter fuel: 1.5 to 2 exclude the starting factor 1"
+        "factor of parameter fuel: 1.5 to 2 is no range; the lower limit must be positive, the upper one larger and finite, and the starting factor 1 between them"
     );
     assert_eq!(
         bounded(2.0, 0.5),
-        "factor of parameter fuel: 2 to 0.5 is no range; the lower limit must be positive, the upper one larger and finite"
+        "factor of parameter fuel: 2 to 0.5 is no range; the lower limit must be positive, the upper one larger and finite, and the starting factor 1 between them"
     );
 }

@@ -17,14 +17,13 @@ fn bounds_that_no_factor_or_not_the_start_satisfies_are_refused_by_their_paramet
         };
         said(chain(vec![some]).unwrap().factor_ranges())
     };
-    let crossed = "is no range; the lower limit must be positive, the upper one larger and finite";
-    let start = "exclude the starting factor 1";
-    for (lower, upper, words) in [
-        (1.5, 1.0, crossed),
-        (1.5, 2.0, start),
-        (0.25, 0.5, start),
-        (0.0, 2.0, crossed),
-        (0.5, 0.999999999, start),
+    let words = "is no range; the lower limit must be positive, the upper one larger and finite, and the starting factor 1 between them";
+    for (lower, upper) in [
+        (1.5, 1.0),
+        (1.5, 2.0),
+        (0.25, 0.5),
+        (0.0, 2.0),
+        (0.5, 0.999999999),
     ] {
         let expected = format!("factor of parameter some: {lower} to {upper} {words}");
         assert_eq!(refused(lower, upper), expected);

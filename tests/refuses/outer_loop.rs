@@ -77,7 +77,7 @@ fn the_inner_loops_errors_are_handed_on() {
             .inner
             .factor_range
             .lower = 9.0)),
-        "factor limits: 9 to 1.5 is no range; the lower limit must be positive, the upper one larger and finite"
+        "factor limits: 9 to 1.5 is no range; the lower limit must be positive, the upper one larger and finite, and the starting factor 1 between them"
     );
 }
 

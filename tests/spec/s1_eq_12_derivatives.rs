@@ -1,7 +1,7 @@
 //! Derivatives of the error sum (12) by the paper's difference, against exact differences.
 
 use crate::prelude::*;
-use corfem::method::analysis::HELD_SEPARATION;
+use corfem::method::derivatives::HELD_SEPARATION;
 
 /// The error sum by eigensolution in modal coordinates at the given factors.
 pub fn exact_error_sum(problem: &Model, factors: &[f64]) -> f64 {

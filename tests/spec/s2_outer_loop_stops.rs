@@ -182,12 +182,6 @@ fn the_box_needs_a_second_pass_because_b_was_frozen() {
     // The exact check of the first pass shows more error than its inner loop; the second, hardly changed, does not.
     assert!(first.check.errors.sum() > 1.5 * first.inner.last.errors.sum());
     assert!(second.check.errors.sum() < 1.1 * second.inner.last.errors.sum());
-    // Each pass begins with a new exact solution.
-    assert_within(
-        second.inner.start.sum(),
-        first.check.errors.sum(),
-        MATRIX_ROUND_OFF,
-    );
     assert_eq!(found.best_factors, second.factors);
 }
 

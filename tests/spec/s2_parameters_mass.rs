@@ -139,7 +139,7 @@ fn dynamic_mass_holds_the_kinetic_energy_of_the_structural_mass() {
             }
         }
     }
-    let expected = condensed_mass(&structural, &b_t).unwrap() + model.mass();
+    let expected = generalized_mass(&b_t, &structural).unwrap() + model.mass();
     let (whole, sensors) = whole_box(&element_masses(), DENSITY, [1.0; POINTS]);
     let (_, dynamic) = condensed(&whole, &[1.0; ELEMENTS], &sensors).unwrap();
     assert_eq!(dynamic.shape(), (POINTS, POINTS));

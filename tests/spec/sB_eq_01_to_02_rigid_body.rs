@@ -3,15 +3,6 @@
 use crate::prelude::*;
 use nalgebra::Unit;
 
-const ALL: [Motion; 6] = [
-    Motion::ForeAft,
-    Motion::Side,
-    Motion::Plunge,
-    Motion::Roll,
-    Motion::Pitch,
-    Motion::Yaw,
-];
-
 fn dof(position: [f64; 3], direction: Unit<Vector3<f64>>) -> MeasuringPoint {
     MeasuringPoint {
         position: Vector3::from(position),
@@ -29,7 +20,7 @@ fn motions_displace_a_point_as_named() {
         0.0, 1.0, 0.0, -5.0, 0.0, 2.0;
         0.0, 0.0, 1.0, 3.0, 2.0, 0.0
     ];
-    assert_eq!(rigid_body_vectors(&ALL, &dofs), expected);
+    assert_eq!(rigid_body_vectors(&dofs), expected);
 }
 
 #[test]
@@ -39,7 +30,7 @@ fn vertical_dof_see_one_and_x_in_symmetric_motion() {
         dof([4.0, 3.0, -2.0], Vector3::z_axis()),
     ];
     assert_eq!(
-        rigid_body_vectors(&SYMMETRIC, &dofs),
+        rigid_body_vectors(&dofs).select_columns(&SYMMETRIC),
         dmatrix![1.0, -7.0; 1.0, 4.0]
     );
 }
@@ -52,7 +43,7 @@ fn lateral_dof_see_side_roll_and_yaw_in_antisymmetric_motion() {
         dof([2.0, 3.0, 5.0], Vector3::z_axis()),
     ];
     assert_eq!(
-        rigid_body_vectors(&ANTISYMMETRIC, &dofs),
+        rigid_body_vectors(&dofs).select_columns(&ANTISYMMETRIC),
         dmatrix![0.0, 0.0, -3.0; 1.0, -5.0, 2.0; 0.0, 3.0, 0.0]
     );
 }
@@ -63,10 +54,10 @@ fn an_oblique_dof_sees_its_component() {
         [2.0, 3.0, 5.0],
         Unit::new_normalize(Vector3::new(0.0, 3.0, 4.0)),
     );
-    let found = rigid_body_vectors(&[Motion::Roll], &[oblique]);
+    let found = rigid_body_vectors(&[oblique]);
     // 3/5 of −5 and 4/5 of 3.
-    assert_eq!(found.shape(), (1, 1));
-    assert_relative_eq!(found[0], -0.6, max_relative = MATRIX_ROUND_OFF);
+    assert_eq!(found.shape(), (1, 6));
+    assert_relative_eq!(found[3], -0.6, max_relative = MATRIX_ROUND_OFF);
 }
 
 #[test]
@@ -91,7 +82,7 @@ fn balancing_refuses_no_motions_no_dof_and_no_position() {
             "rigid-body vectors of entry (0, 0) is NaN; it must be a finite number",
         ),
     ] {
-        let vectors = rigid_body_vectors(motions, dofs);
+        let vectors = rigid_body_vectors(dofs).select_columns(motions);
         assert_eq!(
             said(balance(&raw, &zero_square(1), &eye(1), &vectors)),
             words
@@ -103,7 +94,7 @@ properties! {
     /// A structure without supports resists none of the six: the vectors agree with the rod's own geometry.
     #[test]
     fn rigid_body_motions_meet_no_force(truss in free_truss()) {
-        let vectors = rigid_body_vectors(&ALL, &truss.dofs);
+        let vectors = rigid_body_vectors(&truss.dofs);
         prop_assert_eq!(vectors.shape(), (15, 6));
         let forces = &truss.stiffness * &vectors;
         for motion in 0..6 {

@@ -70,10 +70,15 @@ fn suspension_is_refused_past_the_limit_and_named() {
                     )),
                     "{error}"
                 );
-                let Error::Supported { mode, ratio } = error else {
-                    panic!("expected Error::Supported, found {error}");
+                let Error::Value {
+                    owner,
+                    value: ratio,
+                    ..
+                } = error
+                else {
+                    panic!("expected Error::Value, found {error}");
                 };
-                assert_eq!(mode, first);
+                assert_eq!(owner, format!("mode {first} (from zero)"));
                 assert_relative_eq!(ratio, rate.abs() / omega_squared, max_relative = ROUND_OFF);
             }
             (outcome, _) => panic!("rate {rate}: found {outcome:?}"),
@@ -88,7 +93,8 @@ fn the_stiffest_suspension_mode_decides() {
     let k = 1.2 * LARGEST_SUSPENSION_RATIO * 100.0;
     let stiffness = diagonal([k, 0.0, k]);
     let raw = modes(&[100.0], dmatrix![1.0; 0.0; 0.0]);
-    let Err(Error::Supported { ratio, .. }) = balance(&raw, &stiffness, &mass, &rigid_body) else {
+    let Err(Error::Value { value: ratio, .. }) = balance(&raw, &stiffness, &mass, &rigid_body)
+    else {
         panic!("pitch lies above the limit");
     };
     assert_relative_eq!(ratio, k / 100.0, max_relative = ROUND_OFF);

@@ -386,7 +386,7 @@ fn input_out_of_range_is_refused() {
             &upside_down[..],
             9,
             &usual,
-            "parameter limits: 2 to 1 is no range; the lower limit must be positive, the upper one larger and finite",
+            "parameter limits: 2 to 1 is no range; the lower limit must be positive, the upper one larger and finite, and the starting factor 1 between them",
         ),
     ] {
         let found = gauss_newton(analyze, first, ranges, &weights(modes), settings);

@@ -142,14 +142,14 @@ fn test_modes_are_noisy_orthogonal_and_screened_ones_of_a_held_box() {
         position,
         direction,
     });
-    let motions = [Motion::Plunge, Motion::Roll, Motion::Pitch];
-    let vectors = rigid_body_vectors(&motions, &points.collect_vec());
+    // Plunge, roll and pitch.
+    let vectors = rigid_body_vectors(&points.collect_vec()).select_columns(&[2, 3, 4]);
     let first = case()
         .model()
         .and_then(|model| Ok(model.matrices(&[1.0; 15])?))
         .unwrap();
     let refused = balance(&exact, &first.stiffness, &first.mass, &vectors);
-    assert!(matches!(refused, Err(Error::Supported { .. })));
+    assert!(said(refused).contains("supports balance the forces"));
 }
 
 #[test]

@@ -96,10 +96,20 @@ pub const LOOPS: &[Entry] = &[
         Ok(vec![model.exact().errors.sum()])
     }),
     // A change whose entries are no numbers is refused by the formulae.
-    ("analysis::without_close_couplings", |d| {
+    ("derivatives::without_close_couplings", |d| {
         let size = d.size();
         without_close_couplings(&d.list(size), &d.matrix(size, size));
         Ok(Vec::new())
+    }),
+    ("derivatives::error_change", |d| {
+        let model = chain(d)?;
+        let (state, size) = (d.state(&model), d.size());
+        error_change(&state, &d.symmetric(size), model.test()).map(|found| vec![found])
+    }),
+    ("changed_modes::changed_modes", |d| {
+        let (count, size) = (d.size(), d.size());
+        let (found, p) = changed_modes(&d.modes(count)?, &d.symmetric(size))?;
+        Ok([super::modes(&found), super::entries(&p)].concat())
     }),
     ("inner_loop::first_factors", |d| {
         let model = chain(d)?;

@@ -97,7 +97,7 @@ pub const MATRICES: &[Entry] = &[
             position,
             direction: Vector3::z_axis(),
         });
-        rigid_body_vectors(&[Motion::Plunge, Motion::Roll, Motion::Pitch], &points);
+        rigid_body_vectors(&points);
         Ok(Vec::new())
     }),
     ("linear_algebra::check_shape", |d| {
