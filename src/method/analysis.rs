@@ -31,16 +31,14 @@ pub trait Analysis {
     /// The modes at these factors on the stored stiffness, all changes since the exact modes taken at once (9 to 11).
     ///
     /// # Errors
-    /// [`Error::WrongShape`](super::error::Error::WrongShape) unless there is a factor for every parameter;
-    /// [`Error::NotAVibration`](super::error::Error::NotAVibration), [`Error::CoalescingModes`](super::error::Error::CoalescingModes) or
-    /// [`Error::UnsettledRoots`](super::error::Error::UnsettledRoots) for a change that the perturbation cannot follow.
+    /// Another number of factors than there are parameters, and a change that the perturbation cannot follow: one that takes a root's sign,
+    /// or brings modes so close that the recursion cannot tell them apart or does not settle.
     fn at(&self, factors: &[f64]) -> Result<State>;
 
     /// $\Delta e_e = e_f + e_v - e_S$ (12) of every parameter at a state, for 0.1 % of its present stiffness.
     ///
     /// # Errors
-    /// [`Error::WrongShape`](super::error::Error::WrongShape) for a state of another model;
-    /// [`Error::NotAVibration`](super::error::Error::NotAVibration) when a change takes a root's sign.
+    /// A state of another model, and a change that takes a root's sign.
     fn error_changes(&self, state: &State) -> Result<Vec<f64>>;
 
     /// $\Delta k_e$ (12) of every parameter at a state, dimensionless, with the factors $g_e$ on gages since the exact modes.

@@ -61,8 +61,7 @@ pub fn element_matrices(structure: &Structure) -> impl Iterator<Item = ElementMa
 /// `sizes` are the gages (in) and areas (in²) $s_e$, one per element; `dof_count` the number of free DOF.
 ///
 /// # Errors
-/// [`Error::WrongShape`] for another number of sizes, or an element whose matrix does not fit its DOF; [`Error::Count`] for a DOF
-/// beyond those that there are.
+/// Another number of sizes, a matrix that does not fit its DOF, and a DOF beyond those that there are.
 ///
 /// # Example
 ///
@@ -110,8 +109,8 @@ pub struct Condensed {
 /// last two print $T^t$ for $T$ (`paper/errata.md`).
 ///
 /// # Errors
-/// [`Error::NotPositiveDefinite`] for a structure that nothing holds, or a dynamic DOF that is a combination of those before it;
-/// [`Error::Count`] without dynamic DOF; [`Error::WrongShape`] and [`Error::Value`] for a bad $T$.
+/// A structure that nothing holds, a dynamic DOF that is a combination of those before it, no dynamic DOF, and a $T$ that does not fit or
+/// is not finite.
 ///
 /// # Example
 ///

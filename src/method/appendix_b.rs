@@ -60,9 +60,8 @@ pub struct Balanced {
 /// (`paper/print_and_box.md`); `rigid_body` $= \Phi$ (d × m), see [`rigid_body_vectors`].
 ///
 /// # Errors
-/// [`Error::WrongShape`] and [`Error::Value`] for data that does not fit or is not finite; [`Error::NotPositiveDefinite`] when the
-/// balance equations are singular; [`Error::Value`] when some $\lvert\mu_k\rvert$ exceeds [`LARGEST_SUSPENSION_RATIO`] of a mode's
-/// $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
+/// Data that does not fit or is not finite, rigid-body vectors that depend on each other, and $\lvert\mu_k\rvert$ above
+/// [`LARGEST_SUSPENSION_RATIO`] of a mode's $\omega_i^2$: the structure is held, or the mode is itself a rigid-body mode on the suspension.
 ///
 /// # Example
 ///
@@ -198,8 +197,7 @@ pub struct Orthogonalized {
 /// $e^2$; the sum of $1/\omega^2$ never changes. `mass` in lbf·s²/in (d × d).
 ///
 /// # Errors
-/// [`Error::WrongShape`] and [`Error::Value`] for data that does not fit or is not finite; [`Error::NotPositiveDefinite`] for the mass, or
-/// a shape that is a combination of those before it.
+/// Data that does not fit or is not finite, a mass that is not positive definite, and a shape that is a combination of those before it.
 ///
 /// # Example
 ///
@@ -308,7 +306,7 @@ pub struct Examination {
 /// wrong mode anywhere in the spectrum; several that are mixed with each other are not always told from good ones.
 ///
 /// # Errors
-/// [`Error::Value`] for a bad limit; [`Error::Count`] when no mode is left; what [`balance`] and [`orthogonalize`] refuse.
+/// A limit that is not positive, no mode left within the limits, and what [`balance`] and [`orthogonalize`] refuse.
 ///
 /// # Example
 ///

@@ -53,8 +53,7 @@ pub struct LeftRightModes<T> {
 /// - Phase: the first of the largest components of $v$ (within one part in a million) is real and positive.
 ///
 /// # Errors
-/// [`Error::NotPositiveDefinite`] for the stiffness; [`Error::WrongShape`] and [`Error::Value`] for a $G$ that does not fit or is not
-/// finite, and for a pencil that has fewer shapes than DOF; [`Error::Count`] without DOF; [`Error::Failed`] without convergence.
+/// A stiffness that is not positive definite, a $G$ that does not fit or is not finite, and a pencil that has fewer shapes than DOF.
 ///
 /// # Example
 ///
@@ -126,7 +125,7 @@ impl Pencil<f64> {
     /// $k_{ii} \lambda_i = 1$: `beta` $= V^t\Delta K V$ and `alpha` $= V^t \Delta M V$ (n × n).
     ///
     /// # Errors
-    /// [`Error::Count`] without modes; [`Error::WrongShape`] and [`Error::Value`] for what does not fit or is not finite.
+    /// No modes, and changes that do not fit or are not finite.
     pub fn of_vibrations(omega_squared: &Vector, beta: &Matrix, alpha: &Matrix) -> Result<Self> {
         let size = omega_squared.len();
         at_least_one("modes", size)?;
@@ -143,8 +142,7 @@ impl<T: Number> Pencil<T> {
     /// Changes of stiffness (lbf/in) and of $G$ (lbf·s²/in), all d × d, seen through the modes before them.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] and [`Error::Value`] for input that does not fit or is not finite; [`Error::Value`] when $U^t K V$ is not
-    /// diagonal (C.10).
+    /// Input that does not fit or is not finite, and a $U^t K V$ that is not diagonal (C.10).
     pub fn new(
         stiffness: &Matrix<T>,
         modes: &LeftRightModes<T>,
@@ -200,8 +198,7 @@ impl<T: Number> Pencil<T> {
     /// Modes that the change does not couple may have equal roots.
     ///
     /// # Errors
-    /// [`Error::Value`] for a root that is not finite, as where some $A_{ii}$ vanishes; [`Error::CoalescingModes`] when the denominator
-    /// of coupled modes vanishes.
+    /// A root that is not finite, as where some $A_{ii}$ vanishes, and a denominator of coupled modes that vanishes.
     ///
     /// # Example
     ///
@@ -227,8 +224,7 @@ impl<T: Number> Pencil<T> {
     /// Order zero is $p = I$ with $\gamma_j = G_{jj}/A_{jj}$, so that order one is [`Self::first_order`].
     ///
     /// # Errors
-    /// [`Error::Count`] for order zero; [`Error::Value`] for a root that is not finite; [`Error::CoalescingModes`] when the denominator
-    /// of coupled modes vanishes.
+    /// Order zero, a root that is not finite, and a denominator of coupled modes that vanishes.
     pub fn recursive_1(&self, order: usize) -> Result<Perturbed<T>> {
         at_least_one("order", order)?;
         (0..order).try_fold(self.order_zero()?, |now, _| self.next_order(now))
@@ -263,8 +259,7 @@ impl<T: Number> Pencil<T> {
     ///    \sum_{s \ne j}\big[A_{is}\gamma_j^{(r)} - G_{is}\big] p_{sj}^{(r)} = G_{ij} - A_{ij}\gamma_j^{(r)}, \ i \ne j $$
     ///
     /// # Errors
-    /// [`Error::Count`] for order zero; [`Error::Value`] for a root that is not finite; [`Error::CoalescingModes`] when a denominator
-    /// vanishes or the linear system of a mode is singular.
+    /// Order zero, a root that is not finite, a denominator of coupled modes that vanishes, and a singular linear system of a mode.
     ///
     /// # Example
     ///
@@ -303,7 +298,7 @@ impl<T: Number> Pencil<T> {
     /// Original formulae of 1947: first-order roots and shapes, then the root once more from those shapes.
     ///
     /// # Errors
-    /// [`Error::Value`] for a root that is not finite; [`Error::CoalescingModes`] when the denominator of coupled modes vanishes.
+    /// A root that is not finite, and a denominator of coupled modes that vanishes.
     ///
     /// # Example
     ///

@@ -25,8 +25,7 @@ pub const HELD_SEPARATION: f64 = 10.0 * DERIVATIVE_STEP;
 /// first order (C.20, C.21), and the error sum is taken anew with the state's pairing.
 ///
 /// # Errors
-/// [`Error::WrongShape`](super::error::Error::WrongShape) for a change of other modes, or test modes at other DOF;
-/// [`Error::NotAVibration`](super::error::Error::NotAVibration) when the change takes a root's sign.
+/// A change of other modes, test modes at other DOF, and a change that takes a root's sign.
 pub fn error_change(state: &State, beta: &Matrix, test: &Modes) -> Result<f64> {
     let (before, k) = (&state.modes, &state.modes.omega_squared);
     check_shape("generalized stiffness change", beta, k.len(), k.len())?;

@@ -20,8 +20,7 @@ pub struct ModeError {
 /// Errors of every test mode, whose squares (5) and (6) add up.
 ///
 /// # Errors
-/// [`Error::WrongShape`](super::error::Error::WrongShape) for test shapes at other DOF, [`Error::Count`](super::error::Error::Count) for
-/// modes other than those paired; [`Error::Value`](super::error::Error::Value) for an analysis mode that moves at none of the DOF compared.
+/// Test shapes at other DOF, modes other than those paired, and an analysis mode that moves at none of the DOF compared.
 pub fn mode_errors(analysis: &Modes, pairing: &Pairing, test: &Modes) -> Result<Vec<ModeError>> {
     let (paired, dof_count) = (pairing.paired(analysis)?, analysis.shapes.nrows());
     check_shape(
@@ -60,7 +59,7 @@ impl Errors {
     /// Sums over the errors of test modes.
     ///
     /// # Errors
-    /// [`Error::Value`](super::error::Error::Value) for errors so large that their squares are not finite.
+    /// Errors so large that their squares are not finite.
     pub fn of(each: &[ModeError]) -> Result<Self> {
         let srss = |of: fn(&ModeError) -> f64| {
             each.iter()
@@ -110,9 +109,7 @@ impl Errors {
 /// error is relative: the paper prints a difference but its tables hold the relative one (`paper/errata.md`).
 ///
 /// # Errors
-/// [`Error::WrongShape`](super::error::Error::WrongShape) for test shapes at other DOF, [`Error::Count`](super::error::Error::Count) for
-/// modes other than those paired; [`Error::Value`](super::error::Error::Value) for an analysis mode that moves at none of the DOF compared,
-/// and for errors whose squares are not finite.
+/// What [`mode_errors`] and [`Errors::of`] refuse.
 ///
 /// # Example
 ///

@@ -107,10 +107,9 @@ pub struct InnerRun {
 /// one step is tried even when the start is within tolerance, for the outer loop decides whether to begin.
 ///
 /// # Errors
-/// [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings, bounds and lists; [`Error::NotAVibration`] for a parameter of
-/// which no derivative can be taken.
-/// A step too far for the perturbation is halved like one that raises $e_S$; [`Error::CoalescingModes`] or
-/// [`Error::UnsettledRoots`] is returned when the first and all its halvings are.
+/// Settings out of their ranges, lists of other lengths, and a parameter of which no derivative can be taken. A step too far for the
+/// perturbation is halved like one that raises $e_S$; modes too close to follow are an error when the first step and all its halvings bring
+/// them so close.
 ///
 /// # Example
 ///
@@ -174,8 +173,7 @@ pub fn run(
 /// Factors of (13) before any bound that the first iteration from the last exact modes asks for.
 ///
 /// # Errors
-/// [`Error::Value`] and [`Error::Range`] for settings; [`Error::NotAVibration`] and [`Error::CoalescingModes`] for a parameter of which no
-/// derivative can be taken.
+/// Settings out of their ranges, and a parameter of which no derivative can be taken.
 pub fn first_factors(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<f64>> {
     settings.check()?;
     let ones = vec![1.0; analysis.exact().factors.len()];

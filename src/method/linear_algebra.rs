@@ -23,7 +23,7 @@ impl<T: ComplexField<RealField = f64> + Copy> Number for T {}
 /// Refuses matrices, real or complex, with NaN or infinite entries.
 ///
 /// # Errors
-/// [`Error::Value`] naming the first such entry, column by column, and the sum of its parts.
+/// The first such entry, column by column, with the sum of its parts.
 pub fn check_finite<T: Number>(what: &'static str, matrix: &Matrix<T>) -> Result<()> {
     for (at, entry) in matrix.iter().enumerate() {
         let owner = || format!("entry ({}, {})", at % matrix.nrows(), at / matrix.nrows());
@@ -37,7 +37,7 @@ pub fn check_finite<T: Number>(what: &'static str, matrix: &Matrix<T>) -> Result
 /// Refuses matrices, real or complex, of another shape.
 ///
 /// # Errors
-/// [`Error::WrongShape`] with both shapes.
+/// A matrix of another shape, with both shapes.
 pub fn check_shape<T>(
     what: &'static str,
     matrix: &Matrix<T>,
@@ -71,7 +71,7 @@ pub(crate) fn check_matrix<T: Number>(
 /// Refuses lists of another length.
 ///
 /// # Errors
-/// [`Error::WrongShape`] with both lengths as rows of one column.
+/// A list of another length, with both lengths as rows of one column.
 pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result<()> {
     check_shape(what, &Matrix::from_element(found, 1, ()), expected, 1)
 }
@@ -79,8 +79,8 @@ pub fn check_length(what: &'static str, found: usize, expected: usize) -> Result
 /// Refuses matrices that are not square, finite and symmetric to working precision.
 ///
 /// # Errors
-/// [`Error::WrongShape`]; [`Error::Value`] for an entry that is not finite, or with the largest difference of an entry from its
-/// mirror over the largest entry.
+/// A matrix that is not square or not finite, and one with an entry that differs from its mirror, with the largest difference over the
+/// largest entry.
 pub fn check_symmetric(what: &'static str, matrix: &Matrix) -> Result<()> {
     check_matrix(what, matrix, matrix.nrows(), matrix.nrows())?;
     let apart = (matrix - matrix.transpose()).amax() / matrix.amax();
@@ -114,8 +114,7 @@ pub(crate) fn congruence(matrix: &Matrix, shapes: &Matrix) -> Matrix {
 /// A pivot below `smallest_pivot` times its diagonal entry counts as not positive.
 ///
 /// # Errors
-/// [`Error::WrongShape`] and [`Error::Value`] for a matrix that is not symmetric or finite; [`Error::NotPositiveDefinite`] naming the
-/// row of the first bad pivot.
+/// A matrix that is not symmetric or not finite, and the row of the first bad pivot of one that is not positive definite.
 pub fn cholesky(what: &'static str, matrix: &Matrix, smallest_pivot: f64) -> Result<Matrix> {
     check_symmetric(what, matrix)?;
     let refused = |row| Error::NotPositiveDefinite { what, row };
@@ -155,8 +154,7 @@ pub(crate) fn reduced<T: Number>(lower: &Matrix<T>, matrix: &Matrix<T>) -> Matri
 /// $$ A Y = Y \mathrm{diag}(\mu), \qquad Y^t Y = I $$
 ///
 /// # Errors
-/// [`Error::WrongShape`] and [`Error::Value`] for a matrix that is not symmetric or finite; [`Error::Count`] for an empty one;
-/// [`Error::Failed`] without convergence.
+/// A matrix that is empty, not symmetric or not finite.
 pub fn symmetric_eigen(what: &'static str, matrix: &Matrix) -> Result<(Vector, Matrix)> {
     check_symmetric(what, matrix)?;
     at_least_one(what, matrix.len())?;

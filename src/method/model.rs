@@ -99,9 +99,8 @@ impl FiniteElementModel {
     /// `load_distribution` is $T$ (free SDOF × d), `mass` the dynamic mass $M$ (d × d, lbf·s²/in).
     ///
     /// # Errors
-    /// [`Error::Count`] without parameters, or for one without elements; [`Error::Unknown`] for an element that is not there;
-    /// [`Error::Duplicate`] for one in two parameters; [`Error::WrongShape`] and [`Error::Value`] for a $T$ or element stiffness that
-    /// does not fit or is not finite; [`Error::NotPositiveDefinite`] for the mass.
+    /// No parameters, one without elements or with one that is not there, an element in two of them, a $T$ that does not fit or is not
+    /// finite, and a mass that is not positive definite.
     pub fn new(
         structure: Structure,
         load_distribution: Matrix,
@@ -168,7 +167,7 @@ impl FiniteElementModel {
     /// Bounds on each parameter's factor.
     ///
     /// # Errors
-    /// [`Error::Range`] for bounds that exclude the first value.
+    /// Bounds that exclude the first value.
     pub fn factor_ranges(&self) -> Result<Vec<Option<Bounds>>> {
         let range = |parameter: &Parameter| {
             let Some(Bounds { lower, upper }) = parameter.factor_range else {
@@ -186,7 +185,7 @@ impl FiniteElementModel {
     /// Gages (in) and areas (in²) of all elements at the parameters' factors, in the structure's order.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for another number of factors; [`Error::Value`] for a factor or size that is not positive and finite.
+    /// Another number of factors, and a factor or size that is not positive and finite.
     pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
         let elements = self.structure.elements().iter();
@@ -205,8 +204,7 @@ impl FiniteElementModel {
     /// $K_D$ and $B^t$ at the given parameter factors: $K_S$ anew.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors; [`Error::SingularStiffness`] naming the grid and direction
-    /// that nothing holds; [`Error::NotPositiveDefinite`] when a dynamic DOF is a combination of others.
+    /// A bad list of factors, the grid and direction that nothing holds, and a dynamic DOF that is a combination of others.
     pub fn condense(&self, factors: &[f64]) -> Result<Condensed> {
         let free = self.structure.free_dof();
         let structural = assemble(&self.element_matrices, &self.sizes(factors)?, free.len())?;
@@ -227,9 +225,7 @@ impl FiniteElementModel {
     /// It takes the lowest `analysis_modes` modes, or as many as there are dynamic DOF.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors or test modes at other DOF; [`Error::SingularStiffness`] and
-    /// [`Error::NotPositiveDefinite`] for a motion that nothing holds; [`Error::Count`] for no modes or more than there are, of the
-    /// model or the test; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$.
+    /// What [`Self::matrices`] and [`DynamicModel::analyze`] refuse.
     ///
     /// # Example
     ///
@@ -265,8 +261,7 @@ impl FiniteElementModel {
     /// $K_D$, $M$ and every parameter's share $B K_e B^t$ of $K_D$ (A.9), at the given parameter factors.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors; [`Error::SingularStiffness`] and
-    /// [`Error::NotPositiveDefinite`] for a motion that nothing holds.
+    /// What [`Self::condense`] refuses.
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel> {
         let (sizes, condensed) = (self.sizes(factors)?, self.condense(factors)?);
         let (elements, b) = (&self.element_matrices, &condensed.transformation);
@@ -282,8 +277,7 @@ impl FiniteElementModel {
     /// The exact modes at the given parameter factors, at the dynamic DOF.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] and [`Error::Value`] for a bad list of factors; [`Error::SingularStiffness`] and
-    /// [`Error::NotPositiveDefinite`] for a motion that nothing holds; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$.
+    /// What [`Self::condense`] refuses, and a mode with $\omega^2 \le 0$.
     pub fn modes(&self, factors: &[f64]) -> Result<Modes> {
         let stiffness = self.condense(factors)?.stiffness;
         solve(&stiffness, &self.mass, self.mass.nrows())
@@ -305,9 +299,8 @@ impl DynamicModel {
     /// The analysis of the lowest `analysis_modes` modes, of all when none are named, beside test modes of any scale.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] and [`Error::Value`] for matrices or test modes that do not fit, or are not symmetric and finite;
-    /// [`Error::NotPositiveDefinite`] for the mass; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$; [`Error::Count`] for no
-    /// modes or more than there are, of the model or the test.
+    /// Matrices or test modes that do not fit or are not finite, shares that are not symmetric, what [`solve`] refuses, and more test modes
+    /// than modes.
     pub fn analyze(&self, test: &Modes, analysis_modes: Option<usize>) -> Result<Model> {
         let dof_count = self.stiffness.nrows();
         for share in &self.shares {

@@ -34,8 +34,8 @@ impl Modes {
     /// Modes from squared circular frequencies (rad²/s²) and shapes of any scale and sign, one per column (d × n).
     ///
     /// # Errors
-    /// [`Error::Count`] without modes; [`Error::WrongShape`] unless every shape has a frequency; [`Error::Value`] for an entry that is
-    /// not finite, a squared frequency that is not positive or a shape that is zero.
+    /// No modes, a shape without a frequency, an entry that is not finite, a squared frequency that is not positive, and a shape that is
+    /// zero.
     pub fn new(omega_squared: Vector, shapes: Matrix) -> Result<Self> {
         at_least_one("modes", omega_squared.len())?;
         check_matrix("mode shapes", &shapes, shapes.nrows(), omega_squared.len())?;
@@ -61,7 +61,7 @@ impl Modes {
     /// Measured modes: frequencies in hertz, and shapes of any scale and sign, one per column (d × g).
     ///
     /// # Errors
-    /// [`Error::Value`] for a frequency that is not positive; what [`Self::new`] refuses.
+    /// A frequency that is not positive, and what [`Self::new`] refuses.
     pub fn from_measured(frequencies_hz: &[f64], shapes: &Matrix) -> Result<Self> {
         for (place, &frequency) in frequencies_hz.iter().enumerate() {
             positive("frequency", || mode(place), frequency)?;
@@ -105,7 +105,7 @@ impl Modes {
     /// The first `count` modes: the lowest ones of an eigensolution.
     ///
     /// # Errors
-    /// [`Error::Count`] for none, or more than there are.
+    /// No modes asked for, or more than there are.
     pub fn lowest(&self, count: usize) -> Result<Self> {
         check_count("modes", count, 1, self.len())?;
         Ok(self.select(&(0..count).collect::<Vec<_>>()))
@@ -115,8 +115,7 @@ impl Modes {
     /// Appendix B does that.
     ///
     /// # Errors
-    /// [`Error::WrongShape`] for a mass (d × d, lbf·s²/in) that does not fit the shapes; [`Error::Value`] for a generalized mass that is
-    /// not positive.
+    /// A mass (d × d, lbf·s²/in) that does not fit the shapes, and a generalized mass that is not positive.
     pub fn scaled_with(&self, mass: &Matrix) -> Result<Self> {
         let own = generalized_mass(&self.shapes, mass)?.diagonal();
         let mut scaled = self.clone();
@@ -133,7 +132,7 @@ impl Modes {
 /// [`condense`](super::appendix_a::condense) it is the dynamic mass $B M_S B^t$ (A.9).
 ///
 /// # Errors
-/// [`Error::WrongShape`] when shapes and mass do not fit; [`Error::Value`] for a product that is not finite.
+/// A mass that does not fit the shapes, and a product that is not finite.
 ///
 /// # Example
 ///
@@ -166,9 +165,8 @@ pub(crate) fn mode(place: usize) -> String {
 /// in in/(lbf·s²/in)^½, signed so that the first of their largest components (within one part in a million) is positive.
 ///
 /// # Errors
-/// [`Error::WrongShape`] and [`Error::Value`] for matrices that do not fit, or are not symmetric and finite;
-/// [`Error::NotPositiveDefinite`] for the mass; [`Error::NotAVibration`] for a mode with $\omega^2 \le 0$; [`Error::Count`] for no modes,
-/// or more than there are.
+/// Matrices that do not fit, or are not symmetric and finite, a mass that is not positive definite, a mode with $\omega^2 \le 0$, and no
+/// modes or more than there are.
 ///
 /// # Example
 ///

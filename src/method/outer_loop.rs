@@ -121,8 +121,8 @@ impl Correlation {
 /// correlation by false: what was found until then is kept.
 ///
 /// # Errors
-/// Every error of `analyze`; [`Error::Value`], [`Error::Range`] and [`Error::WrongShape`] for settings and bounds. Modes that
-/// the inner loop cannot follow are an error in the first pass and the end of the correlation in a later one.
+/// Every error of `analyze`, settings out of their ranges, and bounds of another number. Modes that the inner loop cannot follow are an
+/// error in the first pass and the end of the correlation in a later one.
 ///
 /// # Example
 ///

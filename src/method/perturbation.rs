@@ -40,9 +40,8 @@ pub struct Perturbed<T = f64> {
 /// the change does not couple, $\beta_{ij} = 0$, may have equal roots.
 ///
 /// # Errors
-/// [`Error::NotAVibration`] for a $k_{ii}$ that is not positive, [`Error::WrongShape`] and [`Error::Value`] for a change that does not
-/// fit or is not finite; [`Error::NotAVibration`] when $k_{ii} + \beta_{ii} \le 0$; [`Error::CoalescingModes`] when the denominator of
-/// coupled modes vanishes.
+/// A change that does not fit or is not finite, a $k_{ii}$ or $k_{ii} + \beta_{ii}$ that is not positive, and a denominator of coupled
+/// modes that vanishes.
 ///
 /// # Example
 ///
@@ -79,7 +78,7 @@ pub fn first_order(generalized_stiffness: &Vector, beta: &Matrix) -> Result<Pert
 /// $p_{ij}$, where that of mode $j$ belongs (`paper/errata.md`).
 ///
 /// # Errors
-/// [`Error::Count`] for order zero; every error of [`first_order`], which it starts with, and again for later orders.
+/// Order zero, and what [`first_order`] refuses, which it starts with, in later orders too.
 ///
 /// # Example
 ///
@@ -105,9 +104,8 @@ pub fn recursive_1(
 /// Recursive 1 until no root changes by more than [`ROOT_TOLERANCE`] (relative), at most to order [`MOST_ORDERS`].
 ///
 /// # Errors
-/// Every error of [`recursive_1`]; [`Error::UnsettledRoots`] when the last order allowed still changes a root by more than
-/// [`LARGEST_UNSETTLED_CHANGE`], as happens where roots are close; [`Error::CoalescingModes`] when two of them settle on one
-/// mode, as a strong change can make them.
+/// What [`recursive_1`] refuses, a recursion whose last order still changes a root by more than [`LARGEST_UNSETTLED_CHANGE`], as happens
+/// where roots are close, and two modes that settle on one, as a strong change can make them.
 ///
 /// # Example
 ///

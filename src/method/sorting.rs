@@ -29,8 +29,7 @@ impl Pairing {
     /// The paired analysis modes, in the order and with the signs of the test modes.
     ///
     /// # Errors
-    /// [`Error::Count`](super::error::Error::Count) for a pairing of other modes; [`Error::WrongShape`](super::error::Error::WrongShape)
-    /// unless every one has a sign.
+    /// A pairing of other modes, and one without a sign for every mode.
     pub fn paired(&self, analysis: &Modes) -> Result<Modes> {
         let count = self.analysis_mode.len();
         check_length("signs of paired modes", self.sign.len(), count)?;
@@ -46,7 +45,7 @@ impl Pairing {
 /// With mass-orthonormal shapes every entry lies between −1 and 1.
 ///
 /// # Errors
-/// [`Error::WrongShape`](super::error::Error::WrongShape) when shapes and mass do not fit.
+/// A mass that does not fit the shapes.
 ///
 /// # Example
 ///
@@ -77,8 +76,7 @@ pub fn cross_orthogonality(analysis: &Modes, test: &Modes, mass: &Matrix) -> Res
 /// to the lower analysis mode. The sign of a pair is that of its $m_{ij}$.
 ///
 /// # Errors
-/// [`Error::Count`](super::error::Error::Count) without test modes, or with more of them than analysis modes;
-/// [`Error::Value`](super::error::Error::Value) for an entry that is not finite.
+/// No test modes, more of them than analysis modes, and an entry that is not finite.
 ///
 /// # Example
 ///

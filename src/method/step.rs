@@ -29,7 +29,7 @@ impl Bounds {
     /// An interval of positive numbers.
     ///
     /// # Errors
-    /// [`Error::Range`] unless $0 < \text{lower} < \text{upper}$, both finite.
+    /// Ends other than $0 < \text{lower} < \text{upper}$, both finite.
     pub fn positive(what: &str, lower: f64, upper: f64) -> Result<Self> {
         if lower > 0.0 && upper > lower && upper.is_finite() {
             return Ok(Self { lower, upper });

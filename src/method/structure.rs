@@ -45,7 +45,7 @@ impl Material {
     /// A material without mass from $E$ (lbf/in²) and $\nu$: $G = E/\big(2(1+\nu)\big)$.
     ///
     /// # Errors
-    /// [`Error::Value`] unless $E > 0$ and $-1 < \nu \le 1/2$.
+    /// Moduli other than $E > 0$ and $-1 < \nu \le 1/2$.
     pub fn isotropic(youngs_modulus: f64, poissons_ratio: f64) -> Result<Self> {
         let shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
         let material = Self {
@@ -135,9 +135,8 @@ impl Structure {
     /// Checks grids and elements and numbers the free DOF.
     ///
     /// # Errors
-    /// [`Error::Count`] without elements; [`Error::Duplicate`] for a grid or element that is given twice; [`Error::Unknown`] for an
-    /// element's grid that is not there; [`Error::Value`] for a coordinate, size or material out of its range and for
-    /// corners that [`check_corners`] refuses.
+    /// No elements, a grid or element that is given twice, an element's grid that is not there, a coordinate, size or material out of its
+    /// range, and corners that [`check_corners`] refuses.
     ///
     /// # Example
     ///
@@ -231,8 +230,8 @@ impl Structure {
 /// Refuses corners that have no length or area between them, and a panel that is not convex in its mean plane.
 ///
 /// # Errors
-/// [`Error::Count`] for another number of corners than the kind has; [`Error::Value`] for a rod whose ends coincide to working
-/// precision, a triangle whose corners lie on a line, a panel with parallel diagonals or an interior angle of 180° or more.
+/// Another number of corners than the kind has, a rod whose ends coincide to working precision, a triangle whose corners lie on a line, and
+/// a panel with parallel diagonals or an interior angle of 180° or more.
 pub fn check_corners(label: usize, kind: ElementKind, corners: &[Point]) -> Result<()> {
     let count = kind.corner_count();
     check_count("corners of an element", corners.len(), count, count)?;
