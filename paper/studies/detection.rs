@@ -1,6 +1,6 @@
 //! How often a parameter a hundred times too thin is named on other boxes than the reconstructed one by what the first iteration asks for.
 
-use super::readings::{FAULTY_ELEMENT, READINGS};
+use super::readings::FAULTY_ELEMENT;
 use super::rows;
 use crate::prelude::*;
 
@@ -20,7 +20,7 @@ pub fn size_name((coordinates, masses): (f64, f64)) -> String {
     )
 }
 
-/// Counts over boxes of one size, by each of [`READINGS`].
+/// Counts over boxes of one size, by each of [`StepRule::ALL`].
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct BoxRates {
     /// Boxes on which Case 4 names its faulty element.
@@ -40,7 +40,7 @@ pub fn box_rates(size: (f64, f64), boxes: usize) -> BoxRates {
         for number in CASES {
             let case = Case::from_reconstruction(number, other.clone()).unwrap();
             let modal = problem_of(&case);
-            for (place, step) in READINGS.into_iter().enumerate() {
+            for (place, step) in StepRule::ALL.into_iter().enumerate() {
                 let demands = first_factors(&modal, &case.settings_by(step).inner).unwrap();
                 let faulty = demands[FAULTY_ELEMENT - 1];
                 rates.about_60[place] += usize::from(number == 4 && ABOUT_60.contains(&faulty));

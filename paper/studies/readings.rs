@@ -6,13 +6,6 @@ use super::accumulation::accumulation_table;
 use super::{percents, rows};
 use crate::prelude::*;
 
-/// The readings of the step that the tables are asked about, the library's own first.
-pub const READINGS: [StepRule; 4] = [
-    StepRule::Matrix,
-    StepRule::Own,
-    StepRule::Relative,
-    StepRule::Gage,
-];
 /// The element that Case 4 has a hundred times too thin.
 pub const FAULTY_ELEMENT: usize = 8;
 
@@ -22,10 +15,10 @@ pub type Rule = Option<StepRule>;
 
 /// All of them.
 pub const RULES: [Rule; 5] = [
-    Some(READINGS[0]),
-    Some(READINGS[1]),
-    Some(READINGS[2]),
-    Some(READINGS[3]),
+    Some(StepRule::ALL[0]),
+    Some(StepRule::ALL[1]),
+    Some(StepRule::ALL[2]),
+    Some(StepRule::ALL[3]),
     None,
 ];
 
@@ -196,7 +189,7 @@ pub fn columns_of(
 pub static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
     let this = &Reconstruction::embedded().unwrap();
     let of = |reading| (1..=4).flat_map(move |case| columns_of(this, case, reading).unwrap());
-    READINGS.into_iter().flat_map(of).collect()
+    StepRule::ALL.into_iter().flat_map(of).collect()
 });
 
 /// An analysis whose steps are divided by what a rule makes of the changes of the error sum $\Delta e$, the norms $\lVert \kappa \rVert$ of
@@ -276,7 +269,7 @@ pub fn pooled(rule: Rule) -> f64 {
 
 /// Every reading against every printed column, what Case 4's first iteration asks for by each, and the printed counts.
 pub fn tables() -> Vec<Table> {
-    let names = COLUMNS[..COLUMNS.len() / READINGS.len()].iter();
+    let names = COLUMNS[..COLUMNS.len() / StepRule::ALL.len()].iter();
     let agreement = names.map(|of| {
         let same = COLUMNS.iter().filter(|column| column.name == of.name);
         let both = same.flat_map(|column| [column.correlation(), 100.0 * column.difference()]);
@@ -289,7 +282,7 @@ pub fn tables() -> Vec<Table> {
         .iter()
         .map(String::as_str)
         .collect_vec();
-    let demands = READINGS.map(|reading| {
+    let demands = StepRule::ALL.map(|reading| {
         let result = run_by_reading(&case_of(4), reading).unwrap();
         let mut factors = result.unlimited_factors.clone();
         let faulty = factors.remove(FAULTY_ELEMENT - 1);

@@ -78,6 +78,9 @@ pub enum StepRule {
 }
 
 impl StepRule {
+    /// All of them, the library's own first.
+    pub const ALL: [Self; 4] = [Self::Matrix, Self::Own, Self::Relative, Self::Gage];
+
     /// $\Delta k_e$ for a relative change of one, dimensionless: of a parameter with the stiffness `test_share` relative to the test's
     /// (g × g), at the factor $s_e$ on it, of the present `gage` (in).
     pub fn measure(self, test_share: &Matrix, share_factor: f64, gage: f64) -> f64 {

@@ -3,14 +3,6 @@
 use crate::prelude::*;
 use corfem::sparse::UNSEEN_SHARE;
 
-/// All rules of the step.
-pub const STEP_RULES: [StepRule; 4] = [
-    StepRule::Matrix,
-    StepRule::Own,
-    StepRule::Relative,
-    StepRule::Gage,
-];
-
 /// The problem of a chain towards the truth, with all its modes.
 pub fn chain_problem(chain: &Chain, truth: &[f64]) -> Model {
     let count = truth.len();
@@ -38,7 +30,7 @@ pub struct Given {
 /// Settings from cautious to reckless: relaxations from 0.3 to 3, bounds of one factor from narrow to wide, few
 /// iterations so that all three stops occur.
 fn settings() -> impl Strategy<Value = InnerSettings> {
-    let rule = prop::sample::select(STEP_RULES.to_vec());
+    let rule = prop::sample::select(StepRule::ALL.to_vec());
     (
         (0.3..3.0_f64, 0.3..3.0_f64),
         (0.5..0.95_f64, 1.05..2.0_f64),

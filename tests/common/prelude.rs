@@ -39,8 +39,8 @@ pub use crate::common::{
     known::{Known, Weighed},
     log_log_slope,
     loops::{
-        Eigensolved, STEP_RULES, assert_error_sum_only_falls, assert_limits_hold, by_factor,
-        chain_problem, correlate_chain, exact_state, given, inner_for_modes, verdict_of,
+        Eigensolved, assert_error_sum_only_falls, assert_limits_hold, by_factor, chain_problem,
+        correlate_chain, exact_state, given, inner_for_modes, verdict_of,
     },
     matrices::relative_distance,
     measured::{

@@ -140,17 +140,12 @@ fn assert_run(name: &str, test: &Modes, found: &Correlation, gages: &[Vec<f64>],
     }
 }
 
-const READINGS: [(&str, StepRule); 4] = [
-    ("own", StepRule::Own),
-    ("matrix", StepRule::Matrix),
-    ("relative", StepRule::Relative),
-    ("gage", StepRule::Gage),
-];
-
 /// A case by a reading of the step, with as many passes as its enclosure has.
-fn case(number: usize, reading: &str, step: StepRule) -> Case {
+fn case(number: usize, step: StepRule) -> Case {
     let case = case_of(number);
-    let passes = ENCLOSED[&format!("case {number}, {reading}")].passes.len();
+    let passes = ENCLOSED[&format!("case {number}, {}", step.name())]
+        .passes
+        .len();
     Case {
         settings: Settings {
             least_passes: passes,
@@ -162,12 +157,32 @@ fn case(number: usize, reading: &str, step: StepRule) -> Case {
 }
 
 #[test]
+fn every_reading_has_a_name_help_a_golden_and_an_enclosure() {
+    let names = StepRule::ALL.map(StepRule::name);
+    assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len());
+    let read = |path: &str| fs::read_to_string(in_root(path)).unwrap_or_default();
+    let (help, template) = (
+        read("src/program/settings.rs"),
+        read("src/job/template.toml"),
+    );
+    let of_step = template.lines().find(|line| line.starts_with("# step = "));
+    for name in names {
+        assert!(help.contains(&format!("    ///   {name} ")), "{name}");
+        assert!(of_step.is_some_and(|line| line.contains(name)), "{name}");
+        assert_ne!(read(&format!("golden/reference/expected_{name}.toml")), "");
+        for number in CASES {
+            assert!(ENCLOSED.contains_key(&format!("case {number}, {name}")));
+        }
+    }
+}
+
+#[test]
 fn the_cases_by_every_reading_are_the_enclosed_ones() {
     for number in CASES {
-        for (reading, step) in READINGS {
-            let case = case(number, reading, step);
+        for step in StepRule::ALL {
+            let case = case(number, step);
             let found = case_run(&case);
-            let (name, met) = (format!("case {number}, {reading}"), &case.settings);
+            let (name, met) = (format!("case {number}, {}", step.name()), &case.settings);
             assert_run(
                 &name,
                 &found.test,
@@ -181,8 +196,8 @@ fn the_cases_by_every_reading_are_the_enclosed_ones() {
 
 #[test]
 fn passes_with_fewer_modes_by_every_reading_are_the_enclosed_ones() {
-    for (reading, step) in READINGS {
-        let case = case(PUBLISHED_CASE, reading, step);
+    for step in StepRule::ALL {
+        let (reading, case) = (step.name(), case(PUBLISHED_CASE, step));
         let settings = Settings {
             least_passes: 1,
             most_passes: 1,

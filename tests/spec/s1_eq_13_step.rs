@@ -26,7 +26,7 @@ properties! {
         let count = truth.len();
         let model = chain.model(&vec![1.0; count]).analyze(&chain.modes(&truth), None)?;
         let errors = model.error_changes(model.exact())?;
-        for rule in STEP_RULES {
+        for rule in StepRule::ALL {
             let factors = unlimited(&errors, &at_start(&model, rule), 0.3, 1.0);
             for (factor, change) in factors.iter().zip(&errors) {
                 prop_assert!((factor - 1.0) * change <= 0.0, "{rule:?} {factor} {change}");

@@ -527,7 +527,7 @@ fn recorded(step: StepRule) -> &'static str {
 
 fn condensed_rods() -> Vec<Run> {
     let mut runs = Vec::new();
-    for step in STEP_RULES {
+    for step in StepRule::ALL {
         for (is_bounded, modes) in [(false, 5), (true, 5), (false, 4)] {
             let way = Way::Rods { is_bounded, modes };
             let mut run = Run::new(format!("{way:?}, step {}", recorded(step)), way, 4);

@@ -2,7 +2,7 @@
 
 use crate::evidence::accumulation::{ADDED_BOXES, added_and_multiplied};
 use crate::evidence::detection::SIZES;
-use crate::evidence::readings::{COLUMNS, Column, READINGS, columns_of, tables};
+use crate::evidence::readings::{COLUMNS, Column, columns_of, tables};
 use crate::prelude::*;
 
 fn the_box() -> Reconstruction {
@@ -149,7 +149,7 @@ fn on_other_boxes_relative_is_compared_with_every_reading() {
                 let sum: f64 = columns.iter().map(Column::difference).sum();
                 Some(sum / columns.len() as f64)
             };
-            let all: Option<Vec<f64>> = READINGS.into_iter().map(of).collect();
+            let all: Option<Vec<f64>> = StepRule::ALL.into_iter().map(of).collect();
             all
         };
         // A box that cannot be run by every reading says nothing about any.

@@ -49,12 +49,7 @@ fn assert_same(what: &str, model: &FiniteElementModel, case: &Case, modes: (usiz
 #[test]
 fn the_plain_program_corrects_every_case_by_every_reading_as_the_crate_does() {
     for number in CASES {
-        for rule in [
-            StepRule::Matrix,
-            StepRule::Own,
-            StepRule::Relative,
-            StepRule::Gage,
-        ] {
+        for rule in StepRule::ALL {
             let mut case = case_of(number);
             case.settings = case.settings_by(rule);
             let model = case.model().unwrap();

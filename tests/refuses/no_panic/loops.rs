@@ -34,13 +34,7 @@ fn weights(d: &mut Draws, count: usize) -> Vec<ModeWeight> {
 }
 
 fn rule(d: &mut Draws) -> StepRule {
-    let rules = [
-        StepRule::Matrix,
-        StepRule::Own,
-        StepRule::Relative,
-        StepRule::Gage,
-    ];
-    rules[d.below(4)]
+    StepRule::ALL[d.below(StepRule::ALL.len())]
 }
 
 /// Settings of no more than so many passes.
