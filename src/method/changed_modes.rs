@@ -12,7 +12,7 @@ use super::{
 /// terms of the modes before (n × n), of unit generalized mass.
 ///
 /// # Errors
-/// What [`recursive_1_converged`] refuses.
+/// Every error of [`recursive_1_converged`].
 ///
 /// # Example
 ///

@@ -109,7 +109,7 @@ impl Errors {
 /// error is relative: the paper prints a difference but its tables hold the relative one (`paper/errata.md`).
 ///
 /// # Errors
-/// What [`mode_errors`] and [`Errors::of`] refuse.
+/// Every error of [`mode_errors`] and [`Errors::of`].
 ///
 /// # Example
 ///

@@ -225,7 +225,7 @@ impl FiniteElementModel {
     /// It takes the lowest `analysis_modes` modes, or as many as there are dynamic DOF.
     ///
     /// # Errors
-    /// What [`Self::matrices`] and [`DynamicModel::analyze`] refuse.
+    /// Every error of [`Self::matrices`] and [`DynamicModel::analyze`].
     ///
     /// # Example
     ///
@@ -261,7 +261,7 @@ impl FiniteElementModel {
     /// $K_D$, $M$ and every parameter's share $B K_e B^t$ of $K_D$ (A.9), at the given parameter factors.
     ///
     /// # Errors
-    /// What [`Self::condense`] refuses.
+    /// Every error of [`Self::condense`].
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel> {
         let (sizes, condensed) = (self.sizes(factors)?, self.condense(factors)?);
         let (elements, b) = (&self.element_matrices, &condensed.transformation);
@@ -277,7 +277,7 @@ impl FiniteElementModel {
     /// The exact modes at the given parameter factors, at the dynamic DOF.
     ///
     /// # Errors
-    /// What [`Self::condense`] refuses, and a mode with $\omega^2 \le 0$.
+    /// Every error of [`Self::condense`], and a mode with $\omega^2 \le 0$.
     pub fn modes(&self, factors: &[f64]) -> Result<Modes> {
         let stiffness = self.condense(factors)?.stiffness;
         solve(&stiffness, &self.mass, self.mass.nrows())

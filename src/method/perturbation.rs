@@ -104,7 +104,7 @@ pub fn recursive_1(
 /// Recursive 1 until no root changes by more than [`ROOT_TOLERANCE`] (relative), at most to order [`MOST_ORDERS`].
 ///
 /// # Errors
-/// What [`recursive_1`] refuses, a recursion whose last order still changes a root by more than [`LARGEST_UNSETTLED_CHANGE`], as happens
+/// Every error of [`recursive_1`], a recursion whose last order still changes a root by more than [`LARGEST_UNSETTLED_CHANGE`], as happens
 /// where roots are close, and two modes that settle on one, as a strong change can make them.
 ///
 /// # Example

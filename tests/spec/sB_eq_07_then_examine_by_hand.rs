@@ -60,13 +60,13 @@ fn balancing_uses_the_suspension_that_is_given() {
 
 #[test]
 fn a_held_structure_called_free_is_refused() {
-    let mass = eye(3);
-    let rigid_body = DMatrix::repeat(3, 1, 1.0);
+    let mass = eye(4);
+    let rigid_body = DMatrix::repeat(4, 1, 1.0);
     let supports = Supports::Free {
         stiffness: &mass,
         rigid_body: &rigid_body,
     };
-    let raw = modes(&[1.0], dmatrix![1.0; 0.0; 0.0]);
+    let raw = modes(&[1.0], dmatrix![1.0; 0.0; 0.0; 0.0]);
     let outcome = examine(&raw, &mass, supports, &MovementLimits::default());
     assert_eq!(
         said(outcome),
