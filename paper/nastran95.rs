@@ -28,7 +28,7 @@ use corfem::files::{error::FileError, escaped};
 use corfem::method::analysis::State;
 use corfem::method::appendix_a::assemble;
 use corfem::method::error::Error;
-use corfem::method::model::{FiniteElementModel, Model};
+use corfem::method::model::{FiniteElementModel, ModalModel};
 use corfem::method::modes::Modes;
 use corfem::method::outer_loop::{Correlation, correlate};
 use corfem::method::structure::{Element, Grid};
@@ -132,7 +132,7 @@ pub fn correlate_case(
     let ones = vec![1.0; tested.parameters().len()];
     let test = elements(&tested, &ones)?.modes(&ones)?;
     // The loops know nothing of the program: they ask for the analysis at factors, and this is it.
-    let analyze = |factors: &[f64]| -> Outcome<Model> {
+    let analyze = |factors: &[f64]| -> Outcome<ModalModel> {
         let model = elements(&model, factors)?;
         Ok(model.analyze(factors, &test, None)?)
     };

@@ -3,7 +3,7 @@
 use corfem::method::analysis::Analysis;
 use corfem::method::derivatives::DERIVATIVE_STEP;
 use corfem::method::inner_loop::InnerSettings;
-use corfem::method::model::{FiniteElementModel, Model};
+use corfem::method::model::{FiniteElementModel, ModalModel};
 use corfem::method::modes::Modes;
 use corfem::method::step::Bounds;
 use corfem::torque_box::{CASES, Case, run_case};
@@ -15,7 +15,7 @@ pub const NINE: usize = 9;
 /// Case 2 at its start: membrane covers, shear webs.
 pub struct Setting {
     /// The modal problem.
-    pub problem: Model,
+    pub problem: ModalModel,
     /// $M^{-1/2}(K_D + 0.001 K_e)M^{-1/2}$ of every element: what differences of eigensolutions would solve.
     pub element_matrices: Vec<DMatrix<f64>>,
     /// $V^t \Delta K V$ of a step of ten percent up and down.
@@ -76,7 +76,7 @@ pub struct PassSetting {
     /// Factors at its start.
     pub factors: Vec<f64>,
     /// The analysis there.
-    pub start: Model,
+    pub start: ModalModel,
     /// The inner loop's settings.
     pub settings: InnerSettings,
 }

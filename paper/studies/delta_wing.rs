@@ -168,7 +168,7 @@ pub fn correlate_wing<E: From<Error>>(
     mut elements: impl FnMut(&Weighed, &[f64]) -> Result<Weighed, E>,
 ) -> Result<WingCorrelation, E> {
     let Known { model, test, .. } = Known::delta_wing();
-    let mut analyze = |factors: &[f64]| -> Result<Model, E> {
+    let mut analyze = |factors: &[f64]| -> Result<ModalModel, E> {
         Ok(elements(&model, factors)?.analyze(factors, &test)?)
     };
     let first = analyze(&vec![1.0; GROUPS.len()])?;

@@ -82,7 +82,7 @@ impl Weighed {
     ///
     /// # Errors
     /// What the model and [`DynamicModel::analyze`] refuse.
-    pub fn analyze(&self, factors: &[f64], test: &Modes) -> Result<Model, Error> {
+    pub fn analyze(&self, factors: &[f64], test: &Modes) -> Result<ModalModel, Error> {
         self.matrices(factors)?.analyze(test, None)
     }
 

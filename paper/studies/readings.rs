@@ -194,7 +194,7 @@ pub static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
 
 /// An analysis whose steps are divided by what a rule makes of the changes of the error sum $\Delta e$, the norms $\lVert \kappa \rVert$ of
 /// the reading matrix, and the factors on the gages.
-pub struct ByRule<'a, F>(pub &'a Model, pub F);
+pub struct ByRule<'a, F>(pub &'a ModalModel, pub F);
 
 impl<F: Fn(&[f64], &[f64], &[f64]) -> Vec<f64>> Analysis for ByRule<'_, F> {
     fn exact(&self) -> &State {

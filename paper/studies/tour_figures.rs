@@ -121,7 +121,7 @@ fn orders() -> Diagram {
 }
 
 /// A model of one parameter a share, beside the modes of its stiffness divided by a number.
-fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> Model {
+fn too_stiff(shares: Vec<DMatrix<f64>>, too_stiff: f64) -> ModalModel {
     let stiffness: DMatrix<f64> = shares.iter().sum();
     let mass = eye(stiffness.nrows());
     let test = solve(&(&stiffness / too_stiff), &mass, mass.nrows()).unwrap();

@@ -1,7 +1,7 @@
 //! Analysis as the loops need it: four questions.
 //! Tour: [chapter 4](crate::tour::chapter_04_step).
 //!
-//! [`Model`](crate::method::model::Model) answers them as the paper does. Any other analysis that answers them can be correlated.
+//! [`ModalModel`](crate::method::model::ModalModel) answers them as the paper does. Any other analysis that answers them can be correlated.
 
 use super::{
     error::Result, error_sum::Errors, linear_algebra::Matrix, modes::Modes, sorting::Pairing,

@@ -249,7 +249,7 @@ impl FiniteElementModel {
         factors: &[f64],
         test: &Modes,
         analysis_modes: Option<usize>,
-    ) -> Result<Model> {
+    ) -> Result<ModalModel> {
         let mut model = self.matrices(factors)?.analyze(test, analysis_modes)?;
         let sizes = self.sizes(factors)?;
         let mean =
@@ -301,7 +301,7 @@ impl DynamicModel {
     /// # Errors
     /// Matrices or test modes that do not fit or are not finite, shares that are not symmetric, what [`solve`] refuses, and more test modes
     /// than modes.
-    pub fn analyze(&self, test: &Modes, analysis_modes: Option<usize>) -> Result<Model> {
+    pub fn analyze(&self, test: &Modes, analysis_modes: Option<usize>) -> Result<ModalModel> {
         let dof_count = self.stiffness.nrows();
         for share in &self.shares {
             check_shape("parameter share", share, dof_count, dof_count)?;
@@ -320,7 +320,7 @@ impl DynamicModel {
         let relative = |share| through(share, &test.shapes).component_div(&own);
         let cross = cross_orthogonality(&modes, &test, &self.mass)?;
         let (pairing, count) = (pair_modes(&cross)?, self.shares.len());
-        Ok(Model {
+        Ok(ModalModel {
             shares: self
                 .shares
                 .iter()
@@ -343,7 +343,7 @@ impl DynamicModel {
 
 /// A model seen through its exact modes, beside the test modes: the paper's analysis.
 #[derive(Debug, Clone)]
-pub struct Model {
+pub struct ModalModel {
     exact: State,
     test: Modes,
     cross: Matrix,
@@ -353,7 +353,7 @@ pub struct Model {
     pub(crate) gages: Vec<f64>,
 }
 
-impl Model {
+impl ModalModel {
     /// The test modes, scaled to unit generalized mass with the model's mass.
     pub fn test(&self) -> &Modes {
         &self.test
@@ -376,7 +376,7 @@ impl Model {
     }
 }
 
-impl Analysis for Model {
+impl Analysis for ModalModel {
     fn exact(&self) -> &State {
         &self.exact
     }

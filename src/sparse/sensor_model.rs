@@ -13,7 +13,7 @@ use crate::method::derivatives::{DERIVATIVE_STEP, stiffness_changes, without_clo
 use crate::method::error::{Error, require};
 use crate::method::error_sum::{Errors, ModeError, errors, mode_errors};
 use crate::method::linear_algebra::{check_length, check_shape};
-use crate::method::model::Model;
+use crate::method::model::ModalModel;
 use crate::method::modes::{Modes, check_vibrations};
 use crate::method::perturbation::{
     Perturbed, SMALLEST_SEPARATION, first_order, recursive_1_converged,
@@ -348,9 +348,9 @@ impl SensorModel {
     }
 }
 
-impl From<&Model> for SensorModel {
+impl From<&ModalModel> for SensorModel {
     /// The paper's analysis with the dynamic DOF as sensors.
-    fn from(model: &Model) -> Self {
+    fn from(model: &ModalModel) -> Self {
         let exact = model.exact().clone();
         let shares = model.shares().iter().cloned();
         let shares: Vec<_> = shares.map(ParameterMatrix::Stiffness).collect();

@@ -4,7 +4,7 @@ use super::{Case, Grouping};
 use crate::method::error::Error;
 use crate::method::error_sum::{ModeError, mode_errors};
 use crate::method::inner_loop::first_factors;
-use crate::method::model::Model;
+use crate::method::model::ModalModel;
 use crate::method::modes::Modes;
 use crate::method::outer_loop::{Correlation, Pass, correlate};
 use crate::method::step::{Bounds, StepRule};
@@ -104,7 +104,7 @@ pub fn run_case(
     let ranges = model.factor_ranges()?;
     let (mut demands, mut seen, mut unlimited_factors) = (None, Vec::new(), Vec::new());
     let correlation = correlate(
-        |factors| -> Result<Model, CaseError> {
+        |factors| -> Result<ModalModel, CaseError> {
             let analysis = model.analyze(factors, &test, None)?;
             if demands.is_none() {
                 demands = Some(first_factors(&analysis, &by_gage)?);

@@ -9,7 +9,7 @@ use crate::method::derivatives::DERIVATIVE_STEP;
 use crate::method::error::{Error, check_count, positive, require};
 use crate::method::error_sum::{Errors, ModeError, mode_errors};
 use crate::method::linear_algebra::check_shape;
-use crate::method::model::Model;
+use crate::method::model::ModalModel;
 use crate::method::modes::Modes;
 use crate::method::sorting::Pairing;
 use crate::sparse::{Basis, Candidates, ModeWeight, SensorModel, cosines, is_held, is_one_root};
@@ -109,9 +109,9 @@ impl From<SensorModel> for Comparison {
     }
 }
 
-impl From<&Model> for Comparison {
+impl From<&ModalModel> for Comparison {
     /// The paper's analysis with the dynamic DOF as sensors.
-    fn from(model: &Model) -> Self {
+    fn from(model: &ModalModel) -> Self {
         Self::from(SensorModel::from(model))
     }
 }

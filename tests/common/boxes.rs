@@ -4,13 +4,13 @@ use crate::prelude::*;
 use proptest::test_runner::{RngAlgorithm, RngSeed};
 
 /// The problem of a case's first pass: its first gages, its test modes, all nine analysis modes.
-pub fn first_problem(number: usize) -> Model {
+pub fn first_problem(number: usize) -> ModalModel {
     let case = case_of(number);
     problem_of(&case)
 }
 
 /// The same for a case with other gages or settings.
-pub fn problem_of(case: &Case) -> Model {
+pub fn problem_of(case: &Case) -> ModalModel {
     let model = case.model().unwrap();
     let test = case.test_modes().unwrap();
     model.analyze(&[1.0; PANEL_COUNT], &test, None).unwrap()

@@ -26,7 +26,7 @@ pub fn analyze_condensed(
     sensors: &SparseMatrix,
     test: &Modes,
     count: Option<usize>,
-) -> Result<Model, Error> {
+) -> Result<ModalModel, Error> {
     let (condensed, mass) = condensed(model, factors, sensors)?;
     let b = condensed.transformation.transpose();
     let share = |(parameter, &factor): (&WholeParameter, &f64)| {

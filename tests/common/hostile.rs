@@ -135,7 +135,7 @@ impl Draws {
     }
 
     /// A spring chain and its modal model: what comes out of a constructor, for the loops to be given bad settings and factors.
-    pub fn chain(&mut self) -> Option<Model> {
+    pub fn chain(&mut self) -> Option<ModalModel> {
         let count = 1 + self.below(4);
         let share = |spring: usize| spring_stiffness(count, spring, 100.0);
         let shares = (0..count).map(share).collect_vec();
@@ -189,7 +189,7 @@ impl Draws {
     }
 
     /// A state of a model, or of another.
-    pub fn state(&mut self, model: &Model) -> State {
+    pub fn state(&mut self, model: &ModalModel) -> State {
         let other = self.chain().filter(|_| self.below(6) == 0);
         let model = other.as_ref().unwrap_or(model);
         let factors = if self.below(2) == 0 {

@@ -4,7 +4,7 @@ use crate::prelude::*;
 use corfem::sparse::UNSEEN_SHARE;
 
 /// The problem of a chain towards the truth, with all its modes.
-pub fn chain_problem(chain: &Chain, truth: &[f64]) -> Model {
+pub fn chain_problem(chain: &Chain, truth: &[f64]) -> ModalModel {
     let count = truth.len();
     chain
         .model(&vec![1.0; count])
@@ -84,7 +84,7 @@ pub fn given() -> impl Strategy<Value = Given> {
 }
 
 /// Every accepted step lowers the error sum.
-pub fn assert_error_sum_only_falls(problem: &Model, run: &InnerRun) {
+pub fn assert_error_sum_only_falls(problem: &ModalModel, run: &InnerRun) {
     let mut before = problem.exact().errors.sum();
     for iteration in &run.iterations {
         assert!(
@@ -141,7 +141,7 @@ pub fn inner_for_modes(inner: InnerSettings, modes: usize) -> InnerSettings {
 }
 
 /// The verdict on a correlation of this model.
-pub fn verdict_of(found: &Correlation, first: &Model, ranges: &[Option<Bounds>]) -> Verdict {
+pub fn verdict_of(found: &Correlation, first: &ModalModel, ranges: &[Option<Bounds>]) -> Verdict {
     let best = found.best_check();
     let each = mode_errors(&best.modes, &best.pairing, first.test()).unwrap();
     let each = each.into_iter().map(ModeErrors::from).collect_vec();
@@ -174,7 +174,7 @@ pub fn by_factor(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Ve
 ///
 /// # Errors
 /// A model that is not a vibration at these factors, or whose modes do not pair with the test's.
-pub fn exact_state(model: &Model, factors: &[f64]) -> Result<State, Error> {
+pub fn exact_state(model: &ModalModel, factors: &[f64]) -> Result<State, Error> {
     let size = model.exact().modes.len();
     let mut beta = zero_square(size);
     for (share, factor) in model.shares().iter().zip(factors) {
@@ -201,7 +201,7 @@ pub fn exact_state(model: &Model, factors: &[f64]) -> Result<State, Error> {
 }
 
 /// The paper's analysis with an eigensolution where it has Recursive 1.
-pub struct Eigensolved(pub Model);
+pub struct Eigensolved(pub ModalModel);
 
 impl Analysis for Eigensolved {
     fn exact(&self) -> &State {

@@ -119,7 +119,7 @@ pub use corfem::{
         linear_algebra::{
             check_finite, check_shape, check_symmetric, cholesky, symmetric_eigen, symmetric_part,
         },
-        model::{DynamicModel, FiniteElementModel, Model, Parameter},
+        model::{DynamicModel, FiniteElementModel, ModalModel, Parameter},
         modes::{Modes, apply_sign_rule, generalized_mass, solve},
         outer_loop::{Correlation, Pass, Settings, correlate},
         perturbation::{

@@ -47,7 +47,7 @@ fn worked_jobs_take_few_exact_analyses() {
 }
 
 /// A job's model condensed to its sensors and its test, which no job compares any more.
-fn condensed(job: &PreparedJob) -> impl Fn(&[f64]) -> Result<Model, Error> {
+fn condensed(job: &PreparedJob) -> impl Fn(&[f64]) -> Result<ModalModel, Error> {
     |factors| {
         let whole = &job.loaded.source.whole;
         analyze_condensed(whole, factors, &job.loaded.sensors, &job.test, None)

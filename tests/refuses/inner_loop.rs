@@ -32,7 +32,7 @@ impl Uncoupled<'_> {
         (DMatrix::from_diagonal(&springs), mass, test)
     }
 
-    fn with_stiffness(&self, share: DMatrix<f64>) -> Model {
+    fn with_stiffness(&self, share: DMatrix<f64>) -> ModalModel {
         let (stiffness, mass, test) = self.matrices();
         let shares = vec![share];
         let model = DynamicModel {
@@ -209,7 +209,7 @@ fn a_change_of_mass_that_the_recursion_does_not_settle_on_is_refused() {
 }
 
 /// An analysis that ends in an error of its own farther than a tenth from the exact modes.
-struct Nearby(Model);
+struct Nearby(ModalModel);
 
 impl Analysis for Nearby {
     fn exact(&self) -> &State {

@@ -56,7 +56,7 @@ fn modes(found: &Modes) -> Vec<f64> {
 }
 
 /// A chain with its analysis.
-fn chain(d: &mut Draws) -> Result<Model, Error> {
+fn chain(d: &mut Draws) -> Result<ModalModel, Error> {
     d.chain().ok_or_else(|| Error::no_convergence("chains"))
 }
 
@@ -187,8 +187,8 @@ fn the_list_finds_a_function_that_is_not_called() {
         ["Verdict::b"]
     );
     // What a caller reaches through the trait.
-    let source = "impl Analysis for Model {\n    fn at(&self) {}\n}\nimpl Clone for Model {\n    fn clone(&self) {}\n}\n";
-    assert_eq!(public_functions("a", source), ["Model::at"]);
+    let source = "impl Analysis for ModalModel {\n    fn at(&self) {}\n}\nimpl Clone for ModalModel {\n    fn clone(&self) {}\n}\n";
+    assert_eq!(public_functions("a", source), ["ModalModel::at"]);
 }
 
 #[test]

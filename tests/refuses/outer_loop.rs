@@ -5,14 +5,14 @@ use crate::prelude::*;
 const TRUTH: [f64; 3] = [1.3, 0.8, 1.1];
 
 /// Three springs at the given factors, beside the truth.
-fn analyzed(factors: &[f64]) -> Result<Model, Error> {
+fn analyzed(factors: &[f64]) -> Result<ModalModel, Error> {
     let chain = Chain::uniform(3);
     chain.model(factors).analyze(&chain.modes(&TRUTH), None)
 }
 
 /// Three springs with the given analysis, bounds and a change of the default settings.
 fn correlate_with(
-    analyze: impl FnMut(&[f64]) -> Result<Model, Error>,
+    analyze: impl FnMut(&[f64]) -> Result<ModalModel, Error>,
     ranges: &[Option<Bounds>],
     change: impl Fn(&mut Settings),
 ) -> Result<Correlation, Error> {

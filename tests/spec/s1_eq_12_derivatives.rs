@@ -4,7 +4,7 @@ use crate::prelude::*;
 use corfem::method::derivatives::HELD_SEPARATION;
 
 /// The error sum by eigensolution in modal coordinates at the given factors.
-pub fn exact_error_sum(problem: &Model, factors: &[f64]) -> f64 {
+pub fn exact_error_sum(problem: &ModalModel, factors: &[f64]) -> f64 {
     exact_state(problem, factors).unwrap().errors.sum()
 }
 
@@ -17,7 +17,7 @@ pub fn with_one(factors: &[f64], parameter: usize, by: f64) -> Vec<f64> {
 
 /// What first order leaves out of the change of the error sum by a 0.1 % step of a parameter: second-order terms of the
 /// ratio of coupling to separation of any two modes.
-fn first_order_remainder(problem: &Model, state: &State, parameter: usize) -> f64 {
+fn first_order_remainder(problem: &ModalModel, state: &State, parameter: usize) -> f64 {
     let g = &state.generalized_shapes;
     let size = DERIVATIVE_STEP * state.factors[parameter];
     let beta = size * g.tr_mul(&(&problem.shares()[parameter] * g));

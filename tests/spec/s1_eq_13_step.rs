@@ -72,7 +72,7 @@ properties! {
 }
 
 /// The changes at the start of an inner loop.
-fn at_start(model: &Model, rule: StepRule) -> Vec<f64> {
+fn at_start(model: &ModalModel, rule: StepRule) -> Vec<f64> {
     model.stiffness_changes(model.exact(), &model.exact().factors, rule)
 }
 
@@ -85,7 +85,7 @@ fn unlimited(errors: &[f64], stiffnesses: &[f64], error_sum: f64, relaxation: f6
 }
 
 /// A model's state at factors on the stored stiffness, of which the changes of stiffness need nothing else.
-fn state_at(model: &Model, factors: &[f64]) -> State {
+fn state_at(model: &ModalModel, factors: &[f64]) -> State {
     State {
         factors: factors.to_vec(),
         ..model.exact().clone()
@@ -93,7 +93,7 @@ fn state_at(model: &Model, factors: &[f64]) -> State {
 }
 
 /// Three parameters on two test modes: relative stiffnesses (3, 4), (6, 8) with a coupling, and none.
-fn by_hand() -> (Model, Vec<f64>) {
+fn by_hand() -> (ModalModel, Vec<f64>) {
     let relative = [
         dmatrix![3.0, 1.0; 1.0, 4.0],
         dmatrix![6.0, 2.0; 2.0, 8.0],

@@ -2,7 +2,7 @@
 
 use crate::prelude::*;
 
-fn changes(model: &Model, rule: StepRule) -> Vec<f64> {
+fn changes(model: &ModalModel, rule: StepRule) -> Vec<f64> {
     model.stiffness_changes(model.exact(), &model.exact().factors, rule)
 }
 
@@ -23,7 +23,7 @@ impl RankOne {
         (0..self.vectors.len()).map(share).sum()
     }
 
-    fn model(&self) -> (Model, DMatrix<f64>) {
+    fn model(&self) -> (ModalModel, DMatrix<f64>) {
         let ones = vec![1.0; self.vectors.len()];
         let mass = DMatrix::from_diagonal(&DVector::from_column_slice(&self.mass));
         let share = |e: usize| self.stiffness[e] * &self.vectors[e] * self.vectors[e].transpose();

@@ -6,7 +6,7 @@ use crate::prelude::*;
 use corfem::torque_box::wing_box::Panel;
 
 /// A run as given; where roots are so close that no first step settles there is nothing to look at.
-fn run_given(given: &Given) -> Result<(Model, InnerRun), TestCaseError> {
+fn run_given(given: &Given) -> Result<(ModalModel, InnerRun), TestCaseError> {
     let problem = chain_problem(&given.chain, &given.truth);
     match run(&problem, &given.base, &given.total_ranges, &given.settings) {
         Ok(run) => Ok((problem, run)),

@@ -28,7 +28,7 @@ fn repeated_roots_that_nothing_couples_are_corrected_by_recursion_and_eigensolut
 }
 
 /// Two oscillators of nearly the same stiffness, and a share that couples them; of it the test structure has `missing` more.
-fn coupled(missing: f64) -> Model {
+fn coupled(missing: f64) -> ModalModel {
     let stiffness = dmatrix![100.0, 0.0; 0.0, 101.0];
     let coupling = dmatrix![1.0, 1.0; 1.0, 1.0];
     let mass = eye(2);

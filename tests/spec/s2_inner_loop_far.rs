@@ -81,7 +81,7 @@ fn far_chain() -> impl Strategy<Value = (Chain, Vec<f64>)> {
     })
 }
 
-fn start(chain: &Chain) -> Model {
+fn start(chain: &Chain) -> ModalModel {
     let count = chain.masses.len();
     let (test, ones) = (chain.modes(&vec![1.1; count]), vec![1.0; count]);
     chain.model(&ones).analyze(&test, None).unwrap()

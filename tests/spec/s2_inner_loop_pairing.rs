@@ -44,7 +44,7 @@ impl Turned {
         Modes::new(squares, shapes).unwrap()
     }
 
-    fn run(&self) -> (Model, InnerRun) {
+    fn run(&self) -> (ModalModel, InnerRun) {
         let model = self.model(&[1.0; 3]).analyze(&self.test(), None);
         let exactly = Eigensolved(model.unwrap());
         let settings = InnerSettings {

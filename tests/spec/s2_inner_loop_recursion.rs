@@ -4,7 +4,7 @@
 use crate::prelude::*;
 
 /// The chain with λ = 1, 4, 8, its six springs as parameters, and the modes of a stiffer chain as test modes.
-fn chain() -> Model {
+fn chain() -> ModalModel {
     let springs = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let grounds = springs.map(|ground| three_mass_chain(ground, [0.0; 3]));
     let couplings = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 3.0]];

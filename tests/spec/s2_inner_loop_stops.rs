@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 /// One spring whose test structure has 0.81 of its stiffness: $e_S = 1/9$, and the step goes to $1 - R/20$.
-fn one_spring() -> Model {
+fn one_spring() -> ModalModel {
     chain_problem(&Chain::uniform(1), &[0.81])
 }
 

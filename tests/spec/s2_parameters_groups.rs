@@ -142,7 +142,7 @@ fn the_size_of_a_group_is_the_mean_of_its_elements() {
         with_parameters(&case, parameters),
         case.test_modes().unwrap(),
     );
-    let by_gage = |analysis: Model| {
+    let by_gage = |analysis: ModalModel| {
         let changes = analysis.stiffness_changes(analysis.exact(), &[1.0; 2], StepRule::Gage);
         let gage = |change| REFERENCE_GAGE * change / DERIVATIVE_STEP;
         changes.into_iter().map(gage).collect_vec()

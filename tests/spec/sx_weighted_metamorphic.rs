@@ -13,7 +13,7 @@ fn settings(unit: f64) -> WeightedSettings {
 
 /// A correlation whose standard deviations, and that of the prior, are so many times the usual.
 fn correlated(
-    analyze: impl Fn(&[f64]) -> Result<Model, Error>,
+    analyze: impl Fn(&[f64]) -> Result<ModalModel, Error>,
     modes: usize,
     parameters: usize,
     unit: f64,
@@ -38,7 +38,7 @@ fn assert_same(one: &[f64], other: &[f64]) {
 
 /// Noise, and with it the prior, in another unit: the factors are the same, and their deviations scale.
 fn assert_unit_does_not_matter(
-    analyze: impl Fn(&[f64]) -> Result<Model, Error>,
+    analyze: impl Fn(&[f64]) -> Result<ModalModel, Error>,
     modes: usize,
     parameters: usize,
 ) {

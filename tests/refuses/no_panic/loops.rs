@@ -46,17 +46,17 @@ fn at_most(most_passes: usize) -> Settings {
 }
 
 pub const LOOPS: &[Entry] = &[
-    ("Model::at", |d| {
+    ("ModalModel::at", |d| {
         let model = chain(d)?;
         let count = d.about(model.shares().len());
         let state = model.at(&d.list(count))?;
         Ok(vec![state.errors.sum()])
     }),
-    ("Model::error_changes", |d| {
+    ("ModalModel::error_changes", |d| {
         let model = chain(d)?;
         model.error_changes(&d.state(&model))
     }),
-    ("Model::stiffness_changes", |d| {
+    ("ModalModel::stiffness_changes", |d| {
         let model = chain(d)?;
         let gages = (0..d.about(model.shares().len()))
             .map(|_| d.unit())
