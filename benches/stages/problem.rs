@@ -54,7 +54,7 @@ pub fn stages(structure: &str) -> Vec<Stage> {
     let modal = &*Box::leak(Box::new(analyze()));
     let ranges = model.factor_ranges().expect("bounds");
     let inner = move || run(modal, ones, &ranges, &settings).expect("it runs");
-    let factors = inner().factors;
+    let factors = inner().gage_factors;
     let pass = inner.clone();
     vec![
         stage("element matrices", move || {

@@ -73,6 +73,6 @@ pub fn iteration(iteration: &Iteration) -> Value {
         "error_sum": iteration.errors.sum(),
         "halvings": iteration.halvings,
         "unlimited_factors": iteration.unlimited_factors,
-        "factors": iteration.factors,
+        "factors": iteration.gage_factors,
     })
 }

@@ -252,7 +252,7 @@ pub static COUNTED: LazyLock<Vec<Column>> = LazyLock::new(|| {
                 None => run(&ByRule(&modal, half), &ones, &ranges, &settings),
             }
             .unwrap();
-            let gages = column.start.iter().zip(&found.factors);
+            let gages = column.start.iter().zip(&found.gage_factors);
             let gages = gages.map(|(start, factor)| start * factor).collect();
             Column::new(rule, column, gages, found.last.errors.sum())
         };

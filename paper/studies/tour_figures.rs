@@ -90,7 +90,7 @@ fn orders() -> Diagram {
         let factors = &case_run(&case_of(number)).correlation.passes[0]
             .inner
             .last
-            .factors;
+            .share_factors;
         let changes = modal.shares().iter().zip(factors);
         let beta: DMatrix<f64> = changes.map(|(share, factor)| (factor - 1.0) * share).sum();
         let k = modal.exact().modes.omega_squared();

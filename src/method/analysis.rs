@@ -12,7 +12,7 @@ use super::{
 #[derive(Debug, Clone)]
 pub struct State {
     /// Factor $s_e$ on each parameter's stiffness since the last exact modes.
-    pub factors: Vec<f64>,
+    pub share_factors: Vec<f64>,
     /// The modes, each in the place of the exact mode that it continues.
     pub modes: Modes,
     /// Their shapes in terms of the exact modes, of unit generalized mass (n × n).
@@ -33,7 +33,7 @@ pub trait Analysis {
     /// # Errors
     /// Another number of factors than there are parameters, and a change that the perturbation cannot follow: one that takes a root's sign,
     /// or brings modes so close that the recursion cannot tell them apart or does not settle.
-    fn at(&self, factors: &[f64]) -> Result<State>;
+    fn at(&self, share_factors: &[f64]) -> Result<State>;
 
     /// $\Delta e_e = e_f + e_v - e_S$ (12) of every parameter at a state, for 0.1 % of its present stiffness.
     ///

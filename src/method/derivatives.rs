@@ -42,7 +42,7 @@ pub(crate) fn stiffness_changes(
     gages: &[f64],
     gage_factors: &[f64],
 ) -> Vec<f64> {
-    let stored = test_shares.iter().zip(&state.factors);
+    let stored = test_shares.iter().zip(&state.share_factors);
     stored
         .zip(gages.iter().zip(gage_factors))
         .map(|((share, s), (gage, g))| DERIVATIVE_STEP * rule.measure(share, *s, gage * g))

@@ -83,7 +83,7 @@ pub struct Iteration {
     /// Number of halvings of the step.
     pub halvings: usize,
     /// Factor $g_e$ on each parameter's gage since the last exact solution, after the step.
-    pub factors: Vec<f64>,
+    pub gage_factors: Vec<f64>,
     /// Errors after the step.
     pub errors: Errors,
 }
@@ -96,14 +96,14 @@ pub struct InnerRun {
     /// State where the loop ended, with the factors on the stored stiffness.
     pub last: State,
     /// Factor $g_e$ on each parameter's gage since the last exact solution, where it ended.
-    pub factors: Vec<f64>,
+    pub gage_factors: Vec<f64>,
     /// Reason why it stopped.
     pub stop: Stop,
 }
 
 /// Runs the inner loop from the last exact modes.
 ///
-/// `base` holds each parameter's factor from earlier passes and `total_ranges` the bounds on its whole product. At least
+/// `earlier` holds each parameter's factor from earlier passes and `gage_bounds` the bounds on its whole product. At least
 /// one step is tried even when the start is within tolerance, for the outer loop decides whether to begin.
 ///
 /// # Errors
@@ -128,31 +128,31 @@ pub struct InnerRun {
 /// let inner = run(&model.analyze(&test, None)?, &[1.0], &[None], &settings)?;
 /// // The first step asks for a factor of 1.6 and gets the 1.5 that one iteration may.
 /// assert!((inner.iterations[0].unlimited_factors[0] - 1.6).abs() < 0.001);
-/// assert_eq!((inner.iterations[0].factors[0], inner.stop), (1.5, Stop::Tolerance));
+/// assert_eq!((inner.iterations[0].gage_factors[0], inner.stop), (1.5, Stop::Tolerance));
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn run(
     analysis: &dyn Analysis,
-    base: &[f64],
-    total_ranges: &[Option<Bounds>],
+    earlier: &[f64],
+    gage_bounds: &[Option<Bounds>],
     settings: &InnerSettings,
 ) -> Result<InnerRun> {
     settings.check()?;
-    check_length("parameter limits", total_ranges.len(), base.len())?;
-    let ones = vec![1.0; base.len()];
+    check_length("parameter limits", gage_bounds.len(), earlier.len())?;
+    let ones = vec![1.0; earlier.len()];
     let mut run = InnerRun {
         iterations: Vec::new(),
         last: analysis.at(&ones)?,
-        factors: ones,
+        gage_factors: ones,
         stop: Stop::Iterations,
     };
     while run.iterations.len() < settings.iterations {
         let is_first = run.iterations.is_empty();
-        let direction = direction(analysis, &run.last, &run.factors, is_first, settings)?;
-        match lowering_step(analysis, &run, direction, base, total_ranges, settings) {
+        let direction = direction(analysis, &run.last, &run.gage_factors, is_first, settings)?;
+        match lowering_step(analysis, &run, direction, earlier, gage_bounds, settings) {
             Ok(Some((iteration, lower))) => {
                 run.last = lower;
-                run.factors.clone_from(&iteration.factors);
+                run.gage_factors.clone_from(&iteration.gage_factors);
                 run.iterations.push(iteration);
             }
             // An error in the first step names the modes that prevent any; later ones end the loop where it is.
@@ -176,7 +176,7 @@ pub fn run(
 /// Settings out of their ranges, and a parameter of which no derivative can be taken.
 pub fn first_factors(analysis: &dyn Analysis, settings: &InnerSettings) -> Result<Vec<f64>> {
     settings.check()?;
-    let ones = vec![1.0; analysis.exact().factors.len()];
+    let ones = vec![1.0; analysis.exact().share_factors.len()];
     let [.., unlimited] = direction(analysis, &analysis.at(&ones)?, &ones, true, settings)?;
     Ok(unlimited)
 }
@@ -185,12 +185,12 @@ pub fn first_factors(analysis: &dyn Analysis, settings: &InnerSettings) -> Resul
 fn direction(
     analysis: &dyn Analysis,
     state: &State,
-    factors: &[f64],
+    gage_factors: &[f64],
     is_first: bool,
     settings: &InnerSettings,
 ) -> Result<[Vec<f64>; 3]> {
     let error_changes = analysis.error_changes(state)?;
-    let stiffness_changes = analysis.stiffness_changes(state, factors, settings.step);
+    let stiffness_changes = analysis.stiffness_changes(state, gage_factors, settings.step);
     let relaxation = if is_first {
         settings.first_relaxation
     } else {
@@ -208,10 +208,12 @@ fn direction(
 /// every trial, returns the last error.
 fn lowering_step(
     analysis: &dyn Analysis,
-    InnerRun { last, factors, .. }: &InnerRun,
+    InnerRun {
+        last, gage_factors, ..
+    }: &InnerRun,
     [error_changes, stiffness_changes, unlimited_factors]: [Vec<f64>; 3],
-    base: &[f64],
-    total_ranges: &[Option<Bounds>],
+    earlier: &[f64],
+    gage_bounds: &[Option<Bounds>],
     settings: &InnerSettings,
 ) -> Result<Option<(Iteration, State)>> {
     let (mut is_too_far, mut refusal) = (false, None);
@@ -219,18 +221,25 @@ fn lowering_step(
         let fraction = 0.5_f64.powi(halvings as i32);
         let limited = |e: usize| {
             let (c, range) = (unlimited_factors[e], settings.factor_range);
-            limited_factor(c, fraction, factors[e], base[e], range, total_ranges[e])
+            limited_factor(
+                c,
+                fraction,
+                gage_factors[e],
+                earlier[e],
+                range,
+                gage_bounds[e],
+            )
         };
-        let next: Vec<f64> = (0..factors.len()).map(limited).collect();
-        let share = |e: usize| next_share_factor(last.factors[e], factors[e], next[e]);
-        match analysis.at(&(0..factors.len()).map(share).collect::<Vec<_>>()) {
+        let next: Vec<f64> = (0..gage_factors.len()).map(limited).collect();
+        let share = |e: usize| next_share_factor(last.share_factors[e], gage_factors[e], next[e]);
+        match analysis.at(&(0..gage_factors.len()).map(share).collect::<Vec<_>>()) {
             Ok(lower) if lower.errors.sum() < last.errors.sum() => {
                 let iteration = Iteration {
                     error_changes,
                     stiffness_changes,
                     unlimited_factors,
                     halvings,
-                    factors: next,
+                    gage_factors: next,
                     errors: lower.errors,
                 };
                 return Ok(Some((iteration, lower)));

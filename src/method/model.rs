@@ -329,7 +329,7 @@ impl DynamicModel {
             test_shares: self.shares.iter().map(relative).collect(),
             gages: vec![REFERENCE_GAGE; count],
             exact: State {
-                factors: vec![1.0; count],
+                share_factors: vec![1.0; count],
                 generalized_shapes: Matrix::identity(modes.len(), modes.len()),
                 errors: errors(&modes, &pairing, &test)?,
                 modes,
@@ -382,18 +382,18 @@ impl Analysis for ModalModel {
     }
 
     /// The modes after $\beta = \sum_e (s_e - 1) V^t K_e V$.
-    fn at(&self, factors: &[f64]) -> Result<State> {
-        check_length("parameter factors", factors.len(), self.shares.len())?;
+    fn at(&self, share_factors: &[f64]) -> Result<State> {
+        check_length("parameter factors", share_factors.len(), self.shares.len())?;
         let before = &self.exact.modes;
         let mut beta = Matrix::zeros(before.len(), before.len());
-        for (share, s) in self.shares.iter().zip(factors) {
+        for (share, s) in self.shares.iter().zip(share_factors) {
             beta += (s - 1.0) * share;
         }
         let (modes, p) = changed_modes(before, &beta)?;
         let pairing = pair_modes(&p.tr_mul(&self.cross))?;
         let errors = errors(&modes, &pairing, &self.test)?;
         Ok(State {
-            factors: factors.to_vec(),
+            share_factors: share_factors.to_vec(),
             modes,
             generalized_shapes: p,
             pairing,
@@ -405,12 +405,20 @@ impl Analysis for ModalModel {
     fn error_changes(&self, state: &State) -> Result<Vec<f64>> {
         let (p, count) = (&state.generalized_shapes, state.modes.len());
         check_shape("shapes of the state", p, self.exact.modes.len(), count)?;
-        check_length("parameter factors", state.factors.len(), self.shares.len())?;
+        check_length(
+            "parameter factors",
+            state.share_factors.len(),
+            self.shares.len(),
+        )?;
         let change = |(share, s): (&Matrix, &f64)| {
             let beta = DERIVATIVE_STEP * *s * congruence(share, p);
             error_change(state, &beta, &self.test)
         };
-        self.shares.iter().zip(&state.factors).map(change).collect()
+        self.shares
+            .iter()
+            .zip(&state.share_factors)
+            .map(change)
+            .collect()
     }
 
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {

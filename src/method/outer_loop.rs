@@ -117,7 +117,7 @@ impl Correlation {
 /// `analyze` is the finite element analysis: given each parameter's factor on its first value it returns the analysis
 /// there, with a new $B$ and compared with the test modes, such as
 /// [`FiniteElementModel::analyze`](crate::method::model::FiniteElementModel::analyze).
-/// `total_ranges` bounds those factors, one entry per parameter. `go_on` is told of every pass as it is finished, and ends the
+/// `gage_bounds` bounds those factors, one entry per parameter. `go_on` is told of every pass as it is finished, and ends the
 /// correlation by false: what was found until then is kept.
 ///
 /// # Errors
@@ -146,12 +146,12 @@ impl Correlation {
 /// ```
 pub fn correlate<A: Analysis, E: From<Error>>(
     mut analyze: impl FnMut(&[f64]) -> Result<A, E>,
-    total_ranges: &[Option<Bounds>],
+    gage_bounds: &[Option<Bounds>],
     settings: &Settings,
     mut go_on: impl FnMut(usize, &Pass) -> bool,
 ) -> Result<Correlation, E> {
     settings.check()?;
-    let mut factors = vec![1.0; total_ranges.len()];
+    let mut factors = vec![1.0; gage_bounds.len()];
     let mut analysis = analyze(&factors)?;
     let initial = analysis.exact().clone();
     let mut inner_settings = settings.inner.clone();
@@ -159,13 +159,13 @@ pub fn correlate<A: Analysis, E: From<Error>>(
     while passes.len() < settings.most_passes
         && (passes.len() < settings.least_passes || !settings.are_met_by(&analysis.exact().errors))
     {
-        let inner = match run(&analysis, &factors, total_ranges, &inner_settings) {
+        let inner = match run(&analysis, &factors, gage_bounds, &inner_settings) {
             Ok(inner) => inner,
             // Nowhere to go from here, as in a local minimum: what the passes before have reached is kept.
             Err(error) if error.is_of_close_modes() && !passes.is_empty() => break,
             Err(error) => return Err(error.into()),
         };
-        for (factor, step) in factors.iter_mut().zip(&inner.factors) {
+        for (factor, step) in factors.iter_mut().zip(&inner.gage_factors) {
             *factor *= step;
         }
         analysis = analyze(&factors)?;

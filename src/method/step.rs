@@ -122,29 +122,29 @@ pub fn unlimited_factor(
 /// New total factor of a parameter after a `fraction` of the limited step.
 ///
 /// The unlimited factor $c$ is first brought within the bounds of one iteration, then the step $c - 1$ is shortened, so that a
-/// halving shortens the step that is taken. `total` is the factor so far and `base` what it multiplies (the product of earlier
-/// passes), so that the parameter stands at `base·total` of its first value; `total_range` bounds that product.
+/// halving shortens the step that is taken. `gage_factor` is the factor so far and `earlier` what it multiplies (the product of earlier
+/// passes), so that the parameter stands at `earlier·gage_factor` of its first value; `gage_bounds` bounds that product.
 pub fn limited_factor(
     unlimited: f64,
     fraction: f64,
-    total: f64,
-    base: f64,
+    gage_factor: f64,
+    earlier: f64,
     factor_range: Bounds,
-    total_range: Option<Bounds>,
+    gage_bounds: Option<Bounds>,
 ) -> f64 {
     let factor = factor_range.nearest(unlimited);
-    let next = total * (1.0 + fraction * (factor - 1.0));
-    match total_range {
-        Some(range) if !range.contains(base * next) => range.nearest(base * next) / base,
+    let next = gage_factor * (1.0 + fraction * (factor - 1.0));
+    match gage_bounds {
+        Some(range) if !range.contains(earlier * next) => range.nearest(earlier * next) / earlier,
         _ => next,
     }
 }
 
-/// Factor $s_e$ on a stored share after a step that takes its gage's factor from `total` to `next`.
+/// Factor $s_e$ on a stored share after a step that takes its gage's factor from `gage_factor` to `next`.
 ///
 /// Ours, read from the paper's Tables 9 to 12: the changes of an inner loop's iterations add on the stiffness stored since the last
 /// exact modes, $K_e \big(1 + \sum (c - 1)\big)$ and at least [`LEAST_SHARE`] of $K_e$, while gages multiply.
-pub fn next_share_factor(share_factor: f64, total: f64, next: f64) -> f64 {
+pub fn next_share_factor(share_factor: f64, gage_factor: f64, next: f64) -> f64 {
     // `f64::max` would turn NaN into a number.
-    (share_factor + next / total - 1.0).clamp(LEAST_SHARE, f64::INFINITY)
+    (share_factor + next / gage_factor - 1.0).clamp(LEAST_SHARE, f64::INFINITY)
 }

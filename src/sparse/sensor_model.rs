@@ -196,7 +196,7 @@ impl SensorModel {
             gages: vec![REFERENCE_GAGE; moves.ncols()],
             slopes: vec![None; modes.len()],
             exact: State {
-                factors: vec![1.0; moves.ncols()],
+                share_factors: vec![1.0; moves.ncols()],
                 generalized_shapes: DMatrix::identity(basis.ncols(), modes.len()),
                 errors: errors(&modes, &pairing, &scaled)?,
                 modes,
@@ -401,7 +401,7 @@ impl Analysis for SensorModel {
         let pairing = self.paired(&cross, &lowest)?;
         let errors = self.errors_of(&modes, &pairing)?;
         Ok(State {
-            factors: factors.to_vec(),
+            share_factors: factors.to_vec(),
             modes,
             generalized_shapes,
             pairing,
@@ -431,7 +431,7 @@ impl SensorModel {
         let (p, k) = (&state.generalized_shapes, &state.modes.omega_squared);
         let (count, size) = (self.exact.modes.len(), self.basis.ncols());
         check_shape("shapes of the state", p, size, count)?;
-        let apart = self.change(&state.factors)?.apart;
+        let apart = self.change(&state.share_factors)?.apart;
         let rigid = apart.columns(count, size - count);
         let change = |(share, s): (&ParameterMatrix, &f64)| {
             let moved = DERIVATIVE_STEP * *s * (share.matrix() * p);
@@ -455,6 +455,10 @@ impl SensorModel {
                 shapes,
             })
         };
-        self.shares.iter().zip(&state.factors).map(change).collect()
+        self.shares
+            .iter()
+            .zip(&state.share_factors)
+            .map(change)
+            .collect()
     }
 }

@@ -106,16 +106,16 @@ pub fn assert_limits_hold(
     let mut before = vec![1.0; base.len()];
     for iteration in &run.iterations {
         for e in 0..base.len() {
-            let ratio = iteration.factors[e] / before[e];
+            let ratio = iteration.gage_factors[e] / before[e];
             assert!(ratio >= factors.lower * (1.0 - ROUND_OFF), "{e}: {ratio}");
             assert!(ratio <= factors.upper * (1.0 + ROUND_OFF), "{e}: {ratio}");
             if let Some(range) = ranges[e] {
-                let total = base[e] * iteration.factors[e];
+                let total = base[e] * iteration.gage_factors[e];
                 assert!(total >= range.lower * (1.0 - ROUND_OFF), "{e}: {total}");
                 assert!(total <= range.upper * (1.0 + ROUND_OFF), "{e}: {total}");
             }
         }
-        before.clone_from(&iteration.factors);
+        before.clone_from(&iteration.gage_factors);
     }
 }
 
@@ -192,7 +192,7 @@ pub fn exact_state(model: &ModalModel, factors: &[f64]) -> Result<State, Error> 
     let modes = Modes::new(squares, model.exact().modes.shapes() * &generalized)?;
     let pairing = pair_modes(&generalized.tr_mul(model.cross()))?;
     Ok(State {
-        factors: factors.to_vec(),
+        share_factors: factors.to_vec(),
         errors: errors(&modes, &pairing, model.test())?,
         generalized_shapes: generalized,
         modes,

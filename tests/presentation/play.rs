@@ -23,7 +23,7 @@ fn play(result: &CaseResult) -> Result<String, PresentError> {
             .collect()
     };
     let shares = first.shares().iter().map(triangle);
-    let steps = pass.inner.iterations.iter().map(|step| &step.factors);
+    let steps = pass.inner.iterations.iter().map(|step| &step.gage_factors);
     let mils = 1000.0 * case.first_gages().first().copied().unwrap_or(TEST_GAGE);
     let modes = &first.exact().modes;
     let data = json!({
@@ -141,20 +141,23 @@ fn node_solves_the_pages_modes_as_the_program_does() {
     };
     assert_eq!(found["adds"].as_array().map(Vec::len), Some(31));
     for (at, step) in steps.iter().enumerate() {
-        let last = add(&stiffness[at], before, &step.factors);
+        let last = add(&stiffness[at], before, &step.gage_factors);
         let state = by_gages(&last);
         assert_within(state.errors.sum(), step.errors.sum(), PLAYED);
         compare(&found["adds"][at + 1], &state, &format!("step {}", at + 1));
-        let follows = by_gages(&step.factors);
+        let follows = by_gages(&step.gage_factors);
         compare(
             &found["follows"][at + 1],
             &follows,
             &format!("gages of step {}", at + 1),
         );
         stiffness.push(last);
-        before = &step.factors;
+        before = &step.gage_factors;
     }
-    let at_step = |step: usize| step.checked_sub(1).map_or(&ones, |row| &steps[row].factors);
+    let at_step = |step: usize| {
+        step.checked_sub(1)
+            .map_or(&ones, |row| &steps[row].gage_factors)
+    };
     for (at, gages) in dragged.iter().enumerate() {
         let step = at % 31;
         let shares = if at % 2 == 0 {

@@ -178,7 +178,7 @@ fn a_state_of_another_model_has_no_derivatives() {
             format!("shapes of the state: 3 x 3 instead of {expected}")
         );
         let mut state = two.exact().clone();
-        state.factors.push(1.0);
+        state.share_factors.push(1.0);
         assert_eq!(
             said(problem.error_changes(&state)),
             "parameter factors: 3 x 1 instead of 2 x 1"

@@ -39,12 +39,12 @@ properties! {
     fn the_start_state_is_the_last_exact_solution((chain, truth) in chain_and_truth()) {
         let problem = chain_problem(&chain, &truth);
         let (state, ones) = (problem.exact(), vec![1.0; truth.len()]);
-        prop_assert_eq!(&state.factors, &ones);
+        prop_assert_eq!(&state.share_factors, &ones);
         prop_assert_eq!(&state.modes, &chain.modes(&ones));
         prop_assert_eq!(&state.generalized_shapes, &eye(truth.len()));
         // One is a factor like any other.
         let same = problem.at(&ones)?;
-        prop_assert_eq!(&same.factors, &ones);
+        prop_assert_eq!(&same.share_factors, &ones);
         prop_assert!((same.errors.sum() - state.errors.sum()).abs() <= ROUND_OFF);
         prop_assert_eq!(same.pairing, state.pairing.clone());
     }
@@ -67,7 +67,7 @@ properties! {
         if recursion.is_ok_and(|it| it.order < MOST_ORDERS) {
             states.push(("Recursive 1", problem.at(factors)?));
         }
-        for (rule, State { factors: found, modes, generalized_shapes, errors, .. }) in states {
+        for (rule, State { share_factors: found, modes, generalized_shapes, errors, .. }) in states {
             prop_assert_eq!(found, factors);
             prop_assert!((errors.sum() - expected).abs() <= CONVERGED_STATE, "{rule}");
             let v = modes.shapes();

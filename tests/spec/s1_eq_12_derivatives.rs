@@ -19,7 +19,7 @@ pub fn with_one(factors: &[f64], parameter: usize, by: f64) -> Vec<f64> {
 /// ratio of coupling to separation of any two modes.
 fn first_order_remainder(problem: &ModalModel, state: &State, parameter: usize) -> f64 {
     let g = &state.generalized_shapes;
-    let size = DERIVATIVE_STEP * state.factors[parameter];
+    let size = DERIVATIVE_STEP * state.share_factors[parameter];
     let beta = size * g.tr_mul(&(&problem.shares()[parameter] * g));
     let k = state.modes.omega_squared();
     let mut ratio = size;
@@ -57,7 +57,7 @@ properties! {
         let found = problem.error_changes(&state)?;
         prop_assert_eq!(found.len(), count);
         for (e, change) in found.iter().enumerate() {
-            let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
+            let factors = with_one(&state.share_factors, e, 1.0 + DERIVATIVE_STEP);
             let ahead = exact_state(&problem, &factors)?;
             // The derivative keeps the present pairing; where that changes the error sum jumps.
             prop_assume!(ahead.pairing == state.pairing);
@@ -91,7 +91,7 @@ properties! {
         let state = at(&factors[..count]);
         let weighted = SensorModel::from(&plain).weighted(&weights)?;
         for (e, change) in weighted.error_changes(&state)?.iter().enumerate() {
-            let ahead = at(&with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP));
+            let ahead = at(&with_one(&state.share_factors, e, 1.0 + DERIVATIVE_STEP));
             prop_assume!(ahead.pairing == state.pairing);
             let exact = ahead.errors.sum() - state.errors.sum();
             let bound = first_order_remainder(&plain, &state, e);
@@ -136,7 +136,7 @@ properties! {
         let found = problem.error_changes(state)?;
         prop_assert_eq!(found.len(), 15);
         for (e, change) in found.iter().enumerate() {
-            let factors = with_one(&state.factors, e, 1.0 + DERIVATIVE_STEP);
+            let factors = with_one(&state.share_factors, e, 1.0 + DERIVATIVE_STEP);
             let ahead = exact_state(&problem, &factors)?;
             // The derivative keeps the present pairing; where that changes the error sum jumps.
             prop_assume!(ahead.pairing == state.pairing);
@@ -156,8 +156,8 @@ fn derivatives_of_the_box_are_central_differences() {
         let h = DERIVATIVE_STEP / 10.0;
         let central = (0..15)
             .map(|e| {
-                let ahead = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 + h));
-                let behind = exact_error_sum(&problem, &with_one(&state.factors, e, 1.0 - h));
+                let ahead = exact_error_sum(&problem, &with_one(&state.share_factors, e, 1.0 + h));
+                let behind = exact_error_sum(&problem, &with_one(&state.share_factors, e, 1.0 - h));
                 (ahead - behind) / (2.0 * h)
             })
             .collect_vec();

@@ -73,7 +73,7 @@ properties! {
 
 /// The changes at the start of an inner loop.
 fn at_start(model: &ModalModel, rule: StepRule) -> Vec<f64> {
-    model.stiffness_changes(model.exact(), &model.exact().factors, rule)
+    model.stiffness_changes(model.exact(), &model.exact().share_factors, rule)
 }
 
 /// Factors of (13) of all parameters.
@@ -87,7 +87,7 @@ fn unlimited(errors: &[f64], stiffnesses: &[f64], error_sum: f64, relaxation: f6
 /// A model's state at factors on the stored stiffness, of which the changes of stiffness need nothing else.
 fn state_at(model: &ModalModel, factors: &[f64]) -> State {
     State {
-        factors: factors.to_vec(),
+        share_factors: factors.to_vec(),
         ..model.exact().clone()
     }
 }

@@ -3,7 +3,7 @@
 use crate::prelude::*;
 
 fn changes(model: &ModalModel, rule: StepRule) -> Vec<f64> {
-    model.stiffness_changes(model.exact(), &model.exact().factors, rule)
+    model.stiffness_changes(model.exact(), &model.exact().share_factors, rule)
 }
 
 /// A structure of one mass a DOF, elements k aaᵗ with a vector each, and factors on them that the test has.

@@ -86,7 +86,7 @@ fn doubling_every_test_mode_changes_neither_factors_nor_stop() {
         (twice.stop, twice.iterations.len())
     );
     assert_eq!(once.stop, Stop::Tolerance);
-    assert!(relative_error(once.factors[0], twice.factors[0]) < 1e4 * ROUND_OFF);
+    assert!(relative_error(once.gage_factors[0], twice.gage_factors[0]) < 1e4 * ROUND_OFF);
 }
 
 /// Modes of one structure as those of so many copies of it side by side.
@@ -153,5 +153,5 @@ fn halvings_shorten_the_step_that_is_taken() {
     let record = &run.iterations[0];
     assert!(record.unlimited_factors[7] > 50.0);
     let expected = 1.0 + 0.5_f64.powi(record.halvings as i32 + 1);
-    assert_within(record.factors[7], expected, ROUND_OFF);
+    assert_within(record.gage_factors[7], expected, ROUND_OFF);
 }

@@ -78,7 +78,7 @@ properties! {
         let free = Given { total_ranges: vec![None; count], ..given.clone() };
         let first = Given { base: vec![1.0; count], ..free.clone() };
         let (free, first) = (run_given(&free)?, run_given(&first)?);
-        prop_assert_eq!(free.1.last.factors, first.1.last.factors);
+        prop_assert_eq!(free.1.last.share_factors, first.1.last.share_factors);
     }
 }
 

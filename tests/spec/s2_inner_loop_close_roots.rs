@@ -23,7 +23,7 @@ fn repeated_roots_that_nothing_couples_are_corrected_by_recursion_and_eigensolut
     for analysis in analyses {
         let corrected = run(analysis, &[1.0], &[None], &settings).unwrap();
         assert_eq!(corrected.stop, Stop::Tolerance);
-        assert!(relative_error(corrected.last.factors[0], 1.3) < STOPPED_FACTOR);
+        assert!(relative_error(corrected.last.share_factors[0], 1.3) < STOPPED_FACTOR);
     }
 }
 

@@ -31,7 +31,7 @@ fn share_factors(inner: &InnerRun) -> Vec<f64> {
     let factors = inner
         .iterations
         .iter()
-        .map(|iteration| iteration.factors[0]);
+        .map(|iteration| iteration.gage_factors[0]);
     factors.map(next).collect()
 }
 
@@ -50,13 +50,13 @@ properties! {
     fn stiffness_never_falls_below_its_least_share((stiffness, truth) in much_too_stiff()) {
         let inner = run_down(stiffness, truth);
         let shares = share_factors(&inner);
-        let (first, last) = (inner.iterations[0].factors[0], inner.last.factors[0]);
+        let (first, last) = (inner.iterations[0].gage_factors[0], inner.last.share_factors[0]);
         prop_assert!((first - 0.55).abs() <= ROUND_OFF && inner.iterations.len() > 2);
         prop_assert!((last - shares[shares.len() - 1]).abs() <= ROUND_OFF);
         prop_assert!(last >= LEAST_SHARE);
         // A gage of which 0.55 is left three times is none that has no stiffness.
         prop_assert_eq!(shares[2], LEAST_SHARE);
-        prop_assert!(inner.iterations[2].factors[0] > 0.1);
+        prop_assert!(inner.iterations[2].gage_factors[0] > 0.1);
         let ratio = (LEAST_SHARE / truth).sqrt();
         prop_assert!((inner.iterations[2].errors.frequency - (ratio - 1.0).abs()).abs() <= ROUND_OFF);
     }

@@ -88,7 +88,7 @@ properties! {
         // Where the loop ends, which a wrong pairing would choose for itself, and where the test's stiffness is.
         let at_truth = exact_state(&model, &draw.truth)?;
         for state in [&at_truth, &inner.last] {
-            let there = draw.model(&state.factors);
+            let there = draw.model(&state.share_factors);
             let expected = error_sum_by_definition(&there.stiffness, &there.mass, model.test());
             let found = state.errors.sum();
             prop_assert!((found - expected).abs() <= CONVERGED_STATE, "{found} {expected}");
@@ -96,7 +96,7 @@ properties! {
         let found = inner.last.errors.sum();
         // The derivatives are those of the pairs that there are now: of exact modes paired like these, to second order.
         let changed = |parameter: usize| {
-            let mut factors = inner.last.factors.clone();
+            let mut factors = inner.last.share_factors.clone();
             factors[parameter] *= 1.0 + DERIVATIVE_STEP;
             let there = exact_state(&model, &factors).unwrap();
             // An eigensolution's shapes have places and signs of their own: the same modes are those most alike.

@@ -23,7 +23,7 @@ fn one_spring_by_hand() {
         factor,
         1e3 * ROUND_OFF,
     );
-    assert_within(run.last.factors[0], factor, 1e3 * ROUND_OFF);
+    assert_within(run.last.share_factors[0], factor, 1e3 * ROUND_OFF);
     assert_within(
         run.last.errors.sum(),
         factor.sqrt() / 0.9 - 1.0,
@@ -77,13 +77,13 @@ fn a_step_that_overshoots_is_halved() {
     };
     let run = run_with(1);
     assert_eq!(run.iterations[0].halvings, 1);
-    assert_within(run.last.factors[0], 0.775, ROUND_OFF);
+    assert_within(run.last.share_factors[0], 0.775, ROUND_OFF);
     assert_within(run.iterations[0].unlimited_factors[0], 0.4, FIRST_FACTOR);
     // Without halvings the place counts as a local minimum.
     let stuck = run_with(0);
     assert_eq!(stuck.stop, Stop::LocalMinimum);
     assert!(stuck.iterations.is_empty());
-    assert_eq!(stuck.last.factors, [1.0]);
+    assert_eq!(stuck.last.share_factors, [1.0]);
     let start = one_spring().exact().errors.sum();
     assert_within(stuck.last.errors.sum(), start, ROUND_OFF);
     let asked = first_factors(&one_spring(), &settings).unwrap();
@@ -179,7 +179,7 @@ fn no_iterations_are_no_steps() {
     let run = run(&one_spring(), &[1.0], &[None], &settings).unwrap();
     assert_eq!(run.stop, Stop::Iterations);
     assert!(run.iterations.is_empty());
-    assert_eq!(run.last.factors, [1.0]);
+    assert_eq!(run.last.share_factors, [1.0]);
 }
 
 #[test]

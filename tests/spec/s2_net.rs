@@ -189,7 +189,7 @@ impl WithMasses {
             shares: through_modes.collect(),
             test_shares: through_test.map(relative).collect(),
             exact: State {
-                factors: vec![1.0; shares.len()],
+                share_factors: vec![1.0; shares.len()],
                 generalized_shapes: eye(modes.len()),
                 errors: errors(&modes, &pairing, &test)?,
                 modes,
@@ -227,7 +227,7 @@ impl Analysis for WithMasses {
         let modes = Modes::new(roots.map(f64::recip), modes.shapes() * &shapes)?;
         let pairing = pair_modes(&shapes.tr_mul(&self.cross))?;
         Ok(State {
-            factors: factors.to_vec(),
+            share_factors: factors.to_vec(),
             errors: errors(&modes, &pairing, &self.test)?,
             generalized_shapes: shapes,
             modes,
@@ -250,11 +250,15 @@ impl Analysis for WithMasses {
             let errors = errors(&modes, &state.pairing, &self.test)?;
             Ok(errors.sum() - state.errors.sum())
         };
-        self.shares.iter().zip(&state.factors).map(change).collect()
+        self.shares
+            .iter()
+            .zip(&state.share_factors)
+            .map(change)
+            .collect()
     }
 
     fn stiffness_changes(&self, state: &State, gage_factors: &[f64], rule: StepRule) -> Vec<f64> {
-        let both = state.factors.iter().zip(gage_factors);
+        let both = state.share_factors.iter().zip(gage_factors);
         let change = |(share, (factor, gage_factor)): (_, (&f64, &f64))| {
             DERIVATIVE_STEP * rule.measure(share, *factor, REFERENCE_GAGE * gage_factor)
         };

@@ -48,7 +48,7 @@ properties! {
             (0..PANEL_COUNT).map(divisor).collect()
         };
         let found = run(&ByRule(&modal, rule), &[1.0; PANEL_COUNT], &[None; PANEL_COUNT], &settings);
-        let factors = found?.factors;
+        let factors = found?.gage_factors;
         for [one, other] in BAYS {
             prop_assert!(relative_error(factors[one], factors[other]) < SAME_HISTORY);
         }

@@ -146,7 +146,7 @@ pub const LOOPS: &[Entry] = &[
             };
         }
         run(&model, &base, &ranges, &settings)
-            .map(|run| [vec![run.last.errors.sum()], run.factors].concat())
+            .map(|run| [vec![run.last.errors.sum()], run.gage_factors].concat())
     }),
     ("outer_loop::correlate", |d| {
         let settings = at_most(d.below(3));
@@ -173,7 +173,7 @@ pub const LOOPS: &[Entry] = &[
         let analyze = |_: &[f64]| Ok::<_, Error>(model.clone());
         let found = correlate(analyze, &ranges, &settings, |_, _| true)?;
         let best = found.best_check();
-        Ok([best.factors.clone(), vec![best.errors.sum()]].concat())
+        Ok([best.share_factors.clone(), vec![best.errors.sum()]].concat())
     }),
     ("Settings::for_modes", |d| {
         let found = Settings::default().for_modes([d.size(), usize::MAX][d.below(2)]);
