@@ -56,9 +56,9 @@ pub fn element_matrices(structure: &Structure) -> impl Iterator<Item = ElementMa
     })
 }
 
-/// Structural stiffness $K_S = \sum_e s_e K_e$ at the free DOF, lbf/in.
+/// Structural stiffness $K_S = \sum_e t_e K_e$ at the free DOF, lbf/in.
 ///
-/// `sizes` are the gages (in) and areas (in²) $s_e$, one per element; `dof_count` the number of free DOF.
+/// `sizes` are the gages (in) and areas (in²) $t_e$, one per element; `dof_count` the number of free DOF.
 ///
 /// # Errors
 /// Another number of sizes, a matrix that does not fit its DOF, and a DOF beyond those that there are.
@@ -162,10 +162,10 @@ pub fn condense(stiffness: &Matrix, load_distribution: &Matrix) -> Result<Conden
     })
 }
 
-/// Share of an element in the stiffness for shapes at the structural DOF, $s_e V_e^t K_e V_e$ (A.9), where $V_e$ are the rows of
+/// Share of an element in the stiffness for shapes at the structural DOF, $t_e V_e^t K_e V_e$ (A.9), where $V_e$ are the rows of
 /// `structural_shapes` (free SDOF × m) at its own DOF.
 ///
-/// For $B^t$ it is the element's share of $K_D$, $s_e B K_e B^t$; the shares sum to $K_D$ exactly.
+/// For $B^t$ it is the element's share of $K_D$, $t_e B K_e B^t$; the shares sum to $K_D$ exactly.
 pub fn generalized_stiffness(
     element: &ElementMatrix,
     size: f64,
