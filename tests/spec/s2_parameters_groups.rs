@@ -148,8 +148,8 @@ fn the_size_of_a_group_is_the_mean_of_its_elements() {
         changes.into_iter().map(gage).collect_vec()
     };
     let found = by_gage(model.analyze(&[2.0, 3.0], &test, None).unwrap());
-    assert_alike(&found, &expected, ROUND_OFF);
+    assert_alike(&found, expected, ROUND_OFF);
     let matrices = model.matrices(&[2.0, 3.0]).unwrap();
     let found = by_gage(matrices.analyze(&test, None).unwrap());
-    assert_alike(&found, &[REFERENCE_GAGE; 2], ROUND_OFF);
+    assert_alike(&found, [REFERENCE_GAGE; 2], ROUND_OFF);
 }
