@@ -201,7 +201,7 @@ const SAME_SHAPE: f64 = 1e-2;
 const SAME_ROOT: f64 = 1e-3;
 
 /// Result of a recursion that goes on until its roots settle.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Settled<T = f64> {
     /// Roots and shapes of the last order.
     pub perturbed: Perturbed<T>,
