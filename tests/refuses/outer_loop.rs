@@ -68,17 +68,29 @@ fn settings_are_checked_before_any_analysis() {
 
 #[test]
 fn the_inner_loops_errors_are_handed_on() {
-    assert_eq!(
-        said(with_settings(|settings| settings.inner.relaxation = 0.0)),
-        "relaxation of the inner loop is 0; it must be positive and finite"
-    );
-    assert_eq!(
-        said(with_settings(|settings| settings
-            .inner
-            .factor_range
-            .lower = 9.0)),
-        "factor limits: 9 to 1.5 is no range; the lower limit must be positive, the upper one larger and finite"
-    );
+    let crossed = Bounds {
+        lower: 2.0,
+        upper: 0.5,
+    };
+    let of = |range, change: fn(&mut Settings)| {
+        said(correlate_with(analyzed, &[None, None, range], change))
+    };
+    for (found, words) in [
+        (
+            of(None, |own| own.inner.relaxation = 0.0),
+            "relaxation of the inner loop is 0; it must be positive and finite",
+        ),
+        (
+            of(None, |own| own.inner.factor_range.lower = 9.0),
+            "factor limits: 9 to 1.5 is no range; the lower limit must be positive, the upper one larger and finite",
+        ),
+        (
+            of(Some(crossed), |_| {}),
+            "parameter limits: 2 to 0.5 is no range; the lower limit must be positive, the upper one larger and finite",
+        ),
+    ] {
+        assert_eq!(found, words);
+    }
 }
 
 #[test]
@@ -124,16 +136,4 @@ fn there_must_be_bounds_or_none_for_every_parameter() {
             format!("parameter factors: {count} x 1 instead of {parameter_count} x 1")
         );
     }
-}
-
-#[test]
-fn bounds_must_be_in_order() {
-    let crossed = Some(Bounds {
-        lower: 2.0,
-        upper: 0.5,
-    });
-    assert_eq!(
-        said(correlate_with(analyzed, &[None, None, crossed], |_| {})),
-        "parameter limits: 2 to 0.5 is no range; the lower limit must be positive, the upper one larger and finite"
-    );
 }
