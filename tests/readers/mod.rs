@@ -1,7 +1,6 @@
 //! A user's files: decks, matrices, tests, NASTRAN-95's formats, jobs.
 
 pub mod answers;
-pub mod checks;
 mod close_modes;
 pub mod complex_modes;
 pub mod deck;
@@ -19,14 +18,11 @@ mod digits;
 mod file_bounds;
 mod files;
 pub mod garteur;
-pub mod job_concerns;
-pub mod job_errors;
 pub mod job_joins;
 pub mod job_laws;
-pub mod job_matrices;
+pub mod job_lists;
 pub mod job_pairs;
 pub mod job_parts;
-pub mod job_prepared;
 pub mod job_results;
 mod joins;
 pub mod job_unseen;
@@ -46,5 +42,4 @@ mod test_data_axes;
 pub mod test_data_csv;
 pub mod test_data_pyuff;
 pub mod test_data_universal;
-pub mod twice;
 pub mod two_readings;
