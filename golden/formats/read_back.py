@@ -4,7 +4,7 @@
     python3 golden/formats/read_back.py
 
 The files are `written_*.mtx` and `rewritten.bdf`, which tests/files/ compare byte by byte with what the crate writes;
-`CORFEM_WRITTEN=write cargo test owners_programs` writes them. The answers are `read_back_matrices.csv`, the entries from
+`CORFEM_WRITE=formats cargo test owners_programs` writes them. The answers are `read_back_matrices.csv`, the entries from
 SciPy, and `read_back_elements.csv`: size and density of every element, from pyNastran.
 """
 

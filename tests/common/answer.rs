@@ -29,6 +29,13 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::NAN)
 }
 
+/// What a command of the program prints of a job in a format.
+pub fn printed(command: &str, job: &Path, format: &str) -> std::process::Output {
+    let mut program = assert_cmd::Command::cargo_bin("corfem").unwrap();
+    let program = program.arg(command).arg(job);
+    program.args(["-q", "-f", format]).output().unwrap()
+}
+
 /// The program's answer to the files of a job.
 pub fn answered(files: &Files) -> Answer {
     let (_folder, path) = placed(files);
@@ -37,12 +44,7 @@ pub fn answered(files: &Files) -> Answer {
 
 /// The program's answer to a job.
 pub fn answer(job: &Path) -> Answer {
-    let run = |format| {
-        let mut command = assert_cmd::Command::cargo_bin("corfem").unwrap();
-        let command = command.arg("correlate").arg(job);
-        command.args(["-q", "-f", format]).output().unwrap()
-    };
-    let output = run("json");
+    let output = printed("correlate", job, "json");
     let status = output.status.code().unwrap();
     let Ok(found) = serde_json::from_slice::<Value>(&output.stdout) else {
         return Answer {
@@ -83,6 +85,6 @@ pub fn answer(job: &Path) -> Answer {
         frequencies: shaped.map(|own| number(&own["corrected_hz"])).collect(),
         is_stationary: found["end"] == "lowest" || found["end"] == "stationary",
         chi_squared: number(&found["misfit"]["chi_squared"]),
-        words: String::from_utf8(run("text").stdout).unwrap(),
+        words: String::from_utf8(printed("correlate", job, "text").stdout).unwrap(),
     }
 }

@@ -47,7 +47,8 @@ struct Case {
     same: Option<String>,
 }
 
-/// Whether a value has all that another one asks for: numbers within a part of them, and of an object the keys asked for.
+/// Whether a value has all that another one asks for: numbers within a part of them, of an object the keys asked for, and of words those
+/// around "…".
 fn has(found: &Value, asked: &Value, within: f64) -> bool {
     match (found, asked) {
         (_, Value::Null) => true,
@@ -58,6 +59,12 @@ fn has(found: &Value, asked: &Value, within: f64) -> bool {
         }),
         (Value::Array(found), Value::Array(asked)) => {
             found.len() == asked.len() && found.iter().zip(asked).all(|(a, b)| has(a, b, within))
+        }
+        (Value::String(found), Value::String(asked)) => {
+            let mut pieces = asked.split('…');
+            let rest = found.strip_prefix(pieces.next().unwrap_or_default());
+            let rest = pieces.fold(rest, |rest, piece| Some(rest?.split_once(piece)?.1));
+            rest.is_some_and(|rest| rest.is_empty() || asked.contains('…'))
         }
         _ => match (found.as_f64(), asked.as_f64()) {
             (Some(a), Some(b)) => (a - b).abs() <= within * if b == 0.0 { 1.0 } else { b.abs() },

@@ -22,6 +22,12 @@ impl Draws {
     }
 }
 
+/// The number of calls or damaged inputs that `CORFEM_CALLS` asks for.
+pub fn asked_calls(otherwise: u64) -> u64 {
+    let number = std::env::var("CORFEM_CALLS").ok();
+    number.map_or(otherwise, |number| number.parse().unwrap())
+}
+
 /// Draws of a strategy that are looked at for how often they reach something.
 const LOOKED_AT: usize = 200;
 

@@ -61,6 +61,12 @@ impl Draws {
         }
     }
 
+    /// Bounds in any order.
+    pub fn bounds(&mut self) -> Bounds {
+        let (lower, upper) = (self.number(), self.number());
+        Bounds { lower, upper }
+    }
+
     /// A matrix that is meant to be symmetric: often it is, often definite, and scaled by anything.
     pub fn symmetric(&mut self, size: usize) -> DMatrix<f64> {
         let (rows, columns) = (self.about(size), self.about(size));
@@ -109,28 +115,19 @@ impl Draws {
         metal
     }
 
-    pub fn shares(&mut self, size: usize) -> Vec<ParameterMatrix> {
-        let share = |draws: &mut Self| {
-            let matrix = draws.symmetric(size);
-            if draws.below(3) == 0 {
-                ParameterMatrix::Mass(matrix)
-            } else {
-                ParameterMatrix::Stiffness(matrix)
-            }
-        };
-        (0..self.below(4)).map(|_| share(self)).collect()
-    }
-
+    /// Any model, or now and then one that is right.
     pub fn dynamic(&mut self) -> DynamicModel {
         let size = self.size();
+        let matrix: fn(&mut Self, usize) -> DMatrix<f64> = match self.below(4) {
+            0 => |_, size| eye(size),
+            _ => Self::symmetric,
+        };
+        let (stiffness, mass) = (matrix(self, size), matrix(self, size));
+        let shares = (0..self.below(4)).map(|_| matrix(self, size)).collect();
         DynamicModel {
-            stiffness: self.symmetric(size),
-            mass: self.symmetric(size),
-            shares: self
-                .shares(size)
-                .iter()
-                .map(|share| share.matrix().clone())
-                .collect(),
+            stiffness,
+            mass,
+            shares,
         }
     }
 

@@ -34,6 +34,15 @@ pub fn sensor(name: String, grid: usize, direction: usize, place: Option<Vector3
     }
 }
 
+/// The test of modes at some rows with a sensor each, called by S and the row.
+pub fn measured_at(modes: &Modes, rows: &[usize]) -> TestData {
+    let sensors = rows.iter();
+    let sensors = sensors.map(|row| sensor(format!("S{row}"), row + 1, 0, None));
+    let shapes = modes.shapes().select_rows(rows);
+    let seen = Modes::new(modes.omega_squared().clone(), shapes);
+    test_data(&seen.unwrap(), sensors)
+}
+
 /// A folder of `tests/jobs`.
 pub fn folder_of(name: &str) -> PathBuf {
     in_root("tests/jobs").join(name)
@@ -55,7 +64,12 @@ pub fn run(
 
 /// The files of a job of `tests/jobs`, by their names.
 pub fn files_of(name: &str) -> Files {
-    let entries = fs::read_dir(folder_of(name)).unwrap();
+    files_in(&folder_of(name))
+}
+
+/// The files of a folder, by their names.
+pub fn files_in(folder: &Path) -> Files {
+    let entries = fs::read_dir(folder).unwrap();
     let texts = entries.map(|entry| {
         let entry = entry.unwrap();
         let text = fs::read_to_string(entry.path()).unwrap();
@@ -304,6 +318,39 @@ pub fn measured_building(stories: usize, modes: usize) -> Files {
     files
 }
 
+/// A building of ten stories, and its test after an edit.
+pub fn tested(edit: impl FnOnce(&mut TestData)) -> Files {
+    retested(measured_building(10, 4), edit)
+}
+
+/// Masses in a row on springs between them, held nowhere.
+pub fn free_masses() -> Files {
+    let links = (1..6).map(|row| (row, Some(row - 1), 1e5)).collect_vec();
+    let (stiffness, mass) = (springs(6, &links).dense(), masses(&[3.0; 6]).dense());
+    let all = solve(&(&stiffness + 1e-3 * &mass), &mass, 6).unwrap();
+    let three = all.omega_squared().rows(1, 3).into_owned();
+    let modes = Modes::new(three, all.shapes().columns(1, 3).into_owned()).unwrap();
+    of_matrices(&[stiffness], &mass, &modes)
+}
+
+/// A building of ten stories whose test is a Universal File.
+pub fn in_universal() -> Files {
+    let mut files = with(tested(|_| {}), "job.toml", "test.csv", "test.unv");
+    let (name, text) = files.last_mut().unwrap();
+    let data = test_data::read("test.csv", text.as_bytes()).unwrap();
+    (*name, *text) = ("test.unv".to_owned(), write_universal(&data));
+    files
+}
+
+/// The same with a system of units, by code and factor of length.
+pub fn universal(code: usize, length: f64) -> Files {
+    let mut files = in_universal();
+    let units = format!("    -1\n   164\n{code:10}{:<20}{:10}\n", "Own", 2);
+    let factors = format!("{length:25.17E}{:25.17E}{:25.17E}\n    -1\n", 1.0, 1.0);
+    file(&mut files, "test.unv").insert_str(0, &(units + &factors));
+    files
+}
+
 /// A folder of its own, which goes with it.
 pub fn new_folder() -> TempDir {
     tempfile::tempdir().unwrap()
@@ -312,6 +359,11 @@ pub fn new_folder() -> TempDir {
 /// What is known of a job before the first step.
 pub fn trust_in(job: &PreparedJob) -> Trust {
     Trust::before(job).unwrap()
+}
+
+/// The number of a model's rigid-body modes.
+pub fn rigid_bodies(job: &PreparedJob) -> usize {
+    job.loaded.source.whole.rigid_bodies().unwrap().rigid()
 }
 
 /// Names of what a concern is about, none where nobody says it.

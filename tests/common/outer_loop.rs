@@ -31,7 +31,7 @@ pub struct StoredCheck {
 }
 
 /// The delta wing's correlation, `golden/nastran95/delta_wing.toml`.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, serde::Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoredWing {
     pub test_frequencies_hz: Vec<f64>,
@@ -39,7 +39,7 @@ pub struct StoredWing {
     pub passes: Vec<StoredWingCheck>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, serde::Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoredWingCheck {
     pub iterations: Option<usize>,

@@ -96,8 +96,6 @@ pub const ORDER_SLACK: f64 = 0.15;
 pub const DEFECTIVE_COSINE: f64 = 1e-7;
 /// Singular value below which rigid-body motions would depend on each other, in units of inches: the truss is tens of inches large.
 pub const RIGID_BODY_RANK: f64 = 1e-6;
-/// An axis a ten-thousandth beside a global one, of unit length: half the square of that, and its rounding to five decimals.
-pub const BESIDE_AN_AXIS: f64 = 1e-8;
 /// What round-off may take of roots of a deck and still tell a mass of another size: a percent of the least change drawn.
 pub const DECK_ROOTS: f64 = 1e-4;
 /// How far the wing's sensors are from grids of its deck, in: what `distance` in its job allows.

@@ -30,39 +30,32 @@ pub fn towers([split, truth, angle]: [f64; 3]) -> Files {
     of_matrices(&parts, &(50.0 * eye(6)), &modes)
 }
 
-/// Every test mode is its partner's, whatever the combination.
-fn all_alike(result: &JobResult) {
-    let modes = report_of(result).modes;
+/// What comes of a job in which every test mode is its partner's, whatever the combination.
+fn all_alike(files: &Files) -> JobResult {
+    let result = finished(&prepared(files));
+    let modes = report_of(&result).modes;
     assert!(modes.iter().all(|own| own.corrected_mac > Some(1.0 - 1e-9)));
-}
-
-fn corrected(files: &Files) -> (PreparedJob, JobResult) {
-    let loaded = prepared(files);
-    let result = finished(&loaded);
-    (loaded, result)
+    assert!(!result.trust.has_doubt(), "{:?}", result.trust);
+    result
 }
 
 #[test]
 fn turned_shapes_of_close_modes_are_no_error() {
     // Equal in the model or a little apart; in the test apart by half the least that it tells.
     for (split, angle) in [(1.0, 0.6), (1.0, 0.785), (1.002, -0.4)] {
-        let (loaded, result) = corrected(&towers([split, 1.014, angle]));
-        assert_eq!(loaded.together, [vec![0, 1], vec![2, 3], vec![4, 5]]);
-        assert!(!result.trust.has_doubt(), "{:?}", result.trust);
+        let files = towers([split, 1.014, angle]);
+        let result = all_alike(&files);
+        assert_eq!(
+            prepared(&files).together,
+            [vec![0, 1], vec![2, 3], vec![4, 5]]
+        );
         assert_eq!(about(&result.trust, "close-modes-3-4"), ["3", "4"]);
         assert!(!result.trust.stands_against());
         assert!(result.verdict.is_within);
         // Turned shapes leave nothing: every factor follows the frequencies of both towers.
-        assert!(
-            result
-                .found
-                .factors
-                .iter()
-                .all(|factor| (factor - 1.007).abs() < 0.01),
-            "{:?}",
-            result.found.factors
-        );
-        all_alike(&result);
+        for factor in &result.found.factors {
+            assert_within(factor, 1.007, 0.01);
+        }
         assert!(result.misfit.chi_squared < 1.0);
     }
 }
@@ -90,17 +83,9 @@ fn one_mode_of_a_double_root_is_compared_with_the_whole_of_it() {
         let shapes = DMatrix::from_columns(&[all.shapes().column(0).into_owned(), mix(1), mix(3)]);
         let squares = all.omega_squared();
         let test = Modes::new(dvector![squares[0], squares[1], squares[3]], shapes).unwrap();
-        let (_, result) = corrected(&of_matrices(&parts, &mass, &test));
-        assert!(!result.trust.has_doubt(), "{:?}", result.trust);
+        let result = all_alike(&of_matrices(&parts, &mass, &test));
         // What is left is the pull of the prior.
-        assert!(
-            result.misfit.chi_squared < 1e-3,
-            "{}",
-            result.misfit.chi_squared
-        );
-        all_alike(&result);
-        for (factor, truth) in result.found.factors.iter().zip(truth) {
-            assert!((factor / truth - 1.0).abs() < 1e-3, "{factor} {truth}");
-        }
+        assert!(result.misfit.chi_squared < 1e-3);
+        assert_alike(&result.found.factors, truth, 1e-3);
     }
 }

@@ -13,21 +13,6 @@ SPC1,1,123456,1
 CMASS2,7,.4,2,1
 ";
 
-/// The error of [`GOOD`] with one more card, or with one of its lines replaced.
-pub fn error(line: Option<usize>, card: &str) -> FileError {
-    let mut lines = GOOD.lines().collect_vec();
-    match line {
-        Some(line) => lines[line - 1] = card,
-        None => lines.push(card),
-    }
-    deck::read("wing.dat", lines.join("\n").as_bytes(), &[]).expect_err(card)
-}
-
-#[test]
-fn the_deck_without_errors_reads() {
-    assert!(deck::read("wing.dat", GOOD.as_bytes(), &[]).is_ok());
-}
-
 /// Line replaced (or `-` for one more), the card, and of its error the field and two parts of the reason.
 const BAD_FIELDS: &str = "\
 1 | GRID,x,,0.,0.,0. | 2 | a positive integer | X
@@ -107,13 +92,12 @@ fn a_bad_field_is_named_with_file_line_and_card() {
         let [line, card, field, expected, found] = row.split(" | ").collect_vec()[..] else {
             panic!("{row}");
         };
-        let line = line.parse().ok();
-        let said = error(line, card).to_string();
+        let mut lines = GOOD.lines().collect_vec();
+        let line = line.parse().unwrap_or(8);
+        lines.splice(line - 1..line.min(7), [card]);
+        let said = said(deck::read("wing.dat", lines.join("\n").as_bytes(), &[]));
         let name = card.split([',', '*']).next().unwrap();
-        let place = format!(
-            "wing.dat, line {}: card {name}, field {field}: ",
-            line.unwrap_or(8)
-        );
+        let place = format!("wing.dat, line {line}: card {name}, field {field}: ");
         let reason = said.strip_prefix(&place).expect(&said);
         assert!(
             reason.contains(expected) && reason.contains(found),
@@ -124,37 +108,29 @@ fn a_bad_field_is_named_with_file_line_and_card() {
 
 #[test]
 fn what_no_deck_can_hold_is_refused() {
-    let mut model = deck::read("wing.dat", GOOD.as_bytes(), &[]).unwrap().model;
-    let write = |model: &deck::BulkData| deck::write(model, "", 1, [1.0, 2.0]);
+    let mut model = read_deck(GOOD).unwrap().model;
+    let write = |model: &BulkData| said(deck::write(model, "", 1, [1.0, 2.0]));
     model.grids[0].position.y = f64::NAN;
-    let error = write(&model).expect_err("not a number");
+    let number = "number of card GRID, entry 3 is NaN; it must be a finite number";
+    assert_eq!(write(&model), number);
+    (model.grids[0].position.y, model.grids[0].label) = (0.0, 100_000_000);
+    let label = "number of a grid or element in a deck: 100000000 given or asked for; there must be 1 to 99999999";
+    assert_eq!(write(&model), label);
+    model.grids[0].label -= 1;
+    assert_eq!(write(&model), "an answer");
+    let model = case_of(1).model().unwrap();
+    let (mut mass, parameters) = (model.mass().clone(), model.parameters().to_vec());
+    mass[(0, 1)] = 0.1 * mass[(0, 0)];
+    mass[(1, 0)] = mass[(0, 1)];
+    let (structure, t) = (model.structure().clone(), model.load_distribution().clone());
+    let coupled = FiniteElementModel::new(structure, t, mass, parameters).unwrap();
+    let refused = said(BulkData::from_model(
+        &coupled,
+        &[1.0; 15],
+        &[Vector3::zeros(); 9],
+    ));
     assert!(
-        matches!(
-            error,
-            FileError::Method(Error::Value {
-                what: "number",
-                ref owner,
-                expected: "a finite number",
-                ..
-            }) if owner == "card GRID, entry 3"
-        ),
-        "{error}"
+        refused.contains("zero: a deck has point masses alone"),
+        "{refused}"
     );
-    model.grids[0].position.y = 0.0;
-    model.grids[0].label = 100_000_000;
-    let error = write(&model).expect_err("nine digits");
-    assert!(
-        matches!(
-            error,
-            FileError::Method(Error::Count {
-                what: "number of a grid or element in a deck",
-                found: 100_000_000,
-                most: 99_999_999,
-                ..
-            })
-        ),
-        "{error}"
-    );
-    model.grids[0].label = 99_999_999;
-    assert!(write(&model).is_ok());
 }

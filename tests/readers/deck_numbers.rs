@@ -103,4 +103,14 @@ properties! {
     fn a_number_that_fits_a_large_field_is_written_exactly(value in field_number()) {
         prop_assert_eq!(nearest_in_field(value), value);
     }
+
+    /// A free real number of any length, with any exponent, is the number that it says.
+    #[test]
+    fn free_reals_of_any_length_are_read(value in -1e6..1e6_f64, digits in 1..25_usize, letter in prop::sample::select(vec!["E", "D", "e", ""])) {
+        let written = format!("{value:.digits$e}").replace('e', "E");
+        let (mantissa, exponent) = written.split_once('E').unwrap();
+        let exponent: i32 = exponent.parse()?;
+        let grid = read_deck(format!("GRID,1,,{mantissa}{letter}{exponent:+}\n"))?.model.grids[0].position.x;
+        prop_assert_eq!(grid, written.parse::<f64>()?);
+    }
 }

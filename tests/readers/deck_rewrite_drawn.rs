@@ -2,8 +2,6 @@
 
 use super::deck_rewrite::{Factors, elements, rewritten};
 use crate::prelude::*;
-use crate::readers::deck_mass_law::{DOF, roots, whole_box};
-use crate::spec::s2_parameters_mass::DENSITY;
 
 /// How a card is written: with small fields to either side, with large ones with or without a tag, or in free format.
 fn card(name: &str, fields: &[String], style: usize, tag: usize) -> String {
@@ -132,38 +130,6 @@ properties! {
             text.split_inclusive('\n').filter(other).map(str::to_owned).collect()
         };
         prop_assert_eq!(others(&text), others(&result));
-    }
-
-    /// The modes of the model at some factors and with other densities are those of its first deck with the elements rewritten.
-    #[test]
-    fn modes_of_the_rewritten_deck_are_those_of_the_model(
-        stiffness in prop::array::uniform2(0.3..3.0_f64),
-        mass in prop::option::of(prop::array::uniform2(0.3..3.0_f64)),
-        has_density in any::<bool>(),
-        points in prop::collection::vec(0.002..0.02_f64, DOF),
-    ) {
-        let density = if has_density { DENSITY } else { 0.0 };
-        let model = whole_box([density; 3], &points);
-        let (places, ones) = ([Vector3::zeros(); DOF], [1.0; 2]);
-        let first = bulk_text(&BulkData::from_model(&model, &ones, &places)?)?;
-        let [covers, rods] = mass.unwrap_or(ones);
-        let other = whole_box([covers * density, density, rods * density], &points);
-        let wanted = BulkData::from_model(&other, &stiffness, &places)?.elements;
-        let factors = elements(first.as_bytes()).into_iter().zip(wanted).map(|(own, wanted)| {
-            let densities = [own, wanted].map(|element| (element.size, element.material.density, element.label));
-            let [(size, density, label), (new, denser, _)] = densities;
-            (label, [new / size, if density > 0.0 { denser / density } else { 1.0 }])
-        });
-        let text = rewritten(first.as_bytes(), &factors.collect())?;
-        let read = deck::read("box", &text, &[])?.model;
-        let found = deck::modes(&read, usize::MAX)?.modes.omega_squared().clone();
-        let own = roots(&other, &stiffness);
-        prop_assert_eq!(found.len(), own.len());
-        let tolerance = 2.0 * WRITTEN + 2.0 * DECK_ROUNDING + ROUND_OFF * own[DOF - 1] / own[0];
-        prop_assert!(tolerance < 1e-4);
-        for (own, found) in own.iter().zip(&found) {
-            prop_assert!(relative_error(own, found) < tolerance, "{own} {found} {tolerance}");
-        }
     }
 
     /// Other point masses, and nothing else.

@@ -1,8 +1,9 @@
 //! Digits of matrices: what they leave open is said, and nothing else changes.
 
+use crate::common::answer::printed;
 use crate::common::draws::Draws;
 use crate::common::free_structures::written;
-use crate::common::jobs::{file, matrix_job, sensor, test_data};
+use crate::common::jobs::{file, matrix_job, measured_at};
 use crate::prelude::*;
 use corfem::job::matrix_modes;
 use corfem::sparse::BodyFinding;
@@ -221,18 +222,10 @@ fn cell(draws: &mut Draws, [kind, held, count, way, digits]: [usize; 5]) -> bool
     let rows = (0..first[0].nrows())
         .filter(|row| row % 3 != 2)
         .collect_vec();
-    let sensors = rows
-        .iter()
-        .map(|row| sensor(format!("S{row}"), row + 1, 0, None));
-    let seen = Modes::new(
-        real.omega_squared().clone(),
-        real.shapes().select_rows(&rows),
-    )
-    .unwrap();
     let data = TestData {
-        frequency_deviation: Some(vec![0.002; seen.len()]),
-        shape_deviation: Some(vec![0.02; seen.len()]),
-        ..test_data(&seen, sensors)
+        frequency_deviation: Some(vec![0.002; real.len()]),
+        shape_deviation: Some(vec![0.02; real.len()]),
+        ..measured_at(&real, &rows)
     };
     let of_part = |own: &[DMatrix<f64>; 2]| match way {
         0 => ("matrix", own[0].clone()),
@@ -243,13 +236,13 @@ fn cell(draws: &mut Draws, [kind, held, count, way, digits]: [usize; 5]) -> bool
     let found = answer(&job);
     let case = format!("{case}: {:?} {}", found.doubts, found.words);
     // What may be free is not listed, and so not compared.
-    let is_open = |mode: usize| seen.frequencies_hz()[mode - 1] < hidden_hz;
+    let is_open = |mode: usize| data.frequencies_hz[mode - 1] < hidden_hz;
     let is_told = |own: &String| match own.strip_prefix("not-compared-") {
         Some(mode) => is_open(mode.parse().unwrap()),
         None => own == "free-by-digits" && hidden_hz > 0.0,
     };
     // A test of which the digits leave most open is told so, and may look like another's.
-    let is_most = 2 * (1..=seen.len()).filter(|mode| is_open(*mode)).count() > seen.len();
+    let is_most = 2 * (1..=real.len()).filter(|mode| is_open(*mode)).count() > real.len();
     assert!(is_most || found.doubts.iter().all(is_told), "{case}");
     assert_eq!(
         found.status,
@@ -262,14 +255,7 @@ fn cell(draws: &mut Draws, [kind, held, count, way, digits]: [usize; 5]) -> bool
         let is_right = deviation.is_none_or(|own| off < 4.0 * own);
         assert!(is_right || !found.doubts.is_empty(), "{truth}, {case}");
     }
-    let mut check = assert_cmd::Command::cargo_bin("corfem").unwrap();
-    let status = check
-        .arg("check")
-        .arg(&job)
-        .arg("-q")
-        .output()
-        .unwrap()
-        .status;
+    let status = printed("check", &job, "text").status;
     assert!(
         status.code() == Some(found.status) || status.success() && hidden_hz > 0.0,
         "{case}"

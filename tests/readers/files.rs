@@ -94,9 +94,12 @@ fn decks_are_read_or_refused_as_listed() {
 
 #[test]
 fn matrices_are_read_or_refused_as_listed() {
+    let sparse = include_str!("../../golden/formats/sparse.op4").to_owned();
+    let dmig = include_str!("../../golden/formats/small.dmig").to_owned();
+    let made = [("sparse.op4", sparse), ("small.dmig", dmig)];
     hold(
         include_str!("files/matrices.toml"),
-        &[],
+        &made,
         ROUND_OFF,
         of_matrix,
     );
@@ -117,10 +120,13 @@ fn universal_files_are_read_or_refused_as_listed() {
     );
 }
 
-/// The modes of a deck as JSON.
-fn of_modes(text: &str, _: &[String]) -> Result<Value, String> {
+/// The modes of a deck as JSON, all of them or so many.
+fn of_modes(text: &str, most: &[String]) -> Result<Value, String> {
     let model = read_deck(text).map_err(|error| error.to_string())?.model;
-    let found = deck::modes(&model, usize::MAX).map_err(|error| error.to_string())?;
+    let most = most
+        .first()
+        .map_or(usize::MAX, |most| most.parse().unwrap());
+    let found = deck::modes(&model, most).map_err(|error| error.to_string())?;
     let shapes = found.modes.shapes();
     Ok(json!({
         "hertz": found.modes.frequencies_hz(),
@@ -139,4 +145,6 @@ fn decks_have_the_modes_that_are_listed() {
         EIGEN_ROUND_OFF,
         of_modes,
     );
+    let printed = include_str!("files/printed_modes.toml");
+    hold(printed, &[], PRINTED_SEVEN_DIGITS, of_modes);
 }

@@ -1,8 +1,7 @@
 //! Modes that join a correction, stay out of it or are told by frequency alone, by both methods.
 
-use crate::common::jobs::{of_parts, of_whole, run, said, unbroken};
+use crate::common::jobs::{of_parts, of_whole, said, unbroken};
 use crate::prelude::*;
-use crate::readers::job_concerns::rigid_bodies;
 use crate::readers::job_pairs::{net, noisy, normal};
 use corfem::job::concern::Grade;
 
@@ -159,34 +158,6 @@ fn reach_at_the_end_is_what_its_factors_leave_of_the_bounds() {
     }
 }
 
-#[test]
-fn a_stopped_run_says_so_in_words_and_in_its_verdict() {
-    let loaded = prepared(&mixed("paper"));
-    let result = run(&loaded, |_| {}, || false).unwrap();
-    let words = report_of(&result).verdict;
-    assert!(result.verdict.is_within || words.contains("It was stopped by request."));
-}
-
-/// With one sensor all shapes are alike: the order of frequencies decides, and every output says so.
-#[test]
-fn what_shapes_do_not_decide_is_paired_by_frequency_and_said() {
-    let files = retested(rods(), |data| {
-        data.sensors.drain(..2);
-        data.shapes = data.shapes.rows(2, 1).into_owned();
-    });
-    let loaded = prepared(&files);
-    assert_eq!(loaded.loaded.placed.len(), 1);
-    let model = loaded.analyze(&[1.0; 2]).unwrap();
-    let exact = model.model().exact();
-    assert_eq!(exact.pairing.analysis_mode, [0, 1, 2]);
-    let trust = trust_in(&loaded);
-    let all = unbroken(&render::text(&[trust_table("", &trust)]));
-    assert!(
-        all.contains("(at one sensor all shapes are alike)"),
-        "{all}"
-    );
-}
-
 /// One root three times, and parts that would split it: no perturbation of single modes can follow.
 #[test]
 fn repeated_roots_in_the_papers_loops_name_the_other_method() {
@@ -212,20 +183,4 @@ pub fn free_chain(turned: Option<usize>) -> Files {
     });
     let modes = Modes::from_measured(&hertz, &shapes).unwrap();
     job_of_matrices("gauss_newton", &parts.iter().sum(), &parts, &modes)
-}
-
-#[test]
-fn the_pre_flight_sees_a_turned_sensor_of_a_structure_that_hangs_free() {
-    let said = |turned| trust_in(&prepared(&free_chain(turned)));
-    let right = prepared(&free_chain(None));
-    assert_eq!(
-        (rigid_bodies(&right), trust_in(&right).has_doubt()),
-        (1, false)
-    );
-    for place in 1..5 {
-        let trust = said(Some(place));
-        let named = format!("reversed-S{}", place + 1);
-        let is_named = |doubt: &Concern| doubt.stands() && doubt.identifier == named;
-        assert!(trust.all().iter().any(is_named), "{named}: {trust:?}");
-    }
 }

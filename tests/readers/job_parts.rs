@@ -5,7 +5,7 @@ use crate::prelude::*;
 use corfem::job::concern::Check;
 
 /// The files with the numbers of all matrices written with so many digits, those of one after a factor.
-fn written(files: &Files, digits: usize, (name, factor): (&str, f64)) -> Files {
+pub fn written(files: &Files, digits: usize, (name, factor): (&str, f64)) -> Files {
     let number = |of: &str, line: &str| {
         let (place, value) = line.rsplit_once(' ')?;
         let factor = if of == name { factor } else { 1.0 };

@@ -1,15 +1,15 @@
 //! Some sixty jobs and where they end: shipped ones, those of `tests/runs` that a reader's files once failed on, and structures built here.
 //! `golden/runs.toml` has the ends; `CORFEM_WRITE=runs cargo test golden_runs` records them again.
 
-use super::checks::{free, plane};
 use super::close_modes::towers;
-use super::job_concerns::tested;
 use super::job_joins::{free_chain, mixed};
 use super::job_pairs::net;
+use super::job_parts::written;
 use super::job_unseen::{chain, files};
 use super::lone_frequencies::without_shapes;
 use super::repeats::{exact, noisy, repeated};
-use crate::common::jobs::{files_of, of_matrices, of_whole, torque_box};
+use crate::common::answer::printed;
+use crate::common::jobs::{files_of, free_masses, of_matrices, of_whole, tested, torque_box};
 use crate::prelude::*;
 use serde::Serialize;
 
@@ -107,16 +107,32 @@ fn in_folder(folder: &str) -> Vec<(String, PathBuf)> {
     paths.filter(is_job).map(named).collect()
 }
 
-/// The building, as another method or other entries of `[compare]` correct it.
-fn compared(entries: &str) -> Files {
-    comparing(building(), entries)
-}
-
-/// The building, its test with noise of this seed.
-fn with_building_noise(seed: u64, edit: impl FnOnce(&mut TestData)) -> Files {
-    retested(building(), |data| {
-        *data = noisy(data, seed);
-        edit(data);
+/// Masses that move along x and y, with sensors along x.
+fn plane() -> Files {
+    let rows = 12;
+    let row = |grid: usize, along: usize| 2 * grid + along;
+    let mut all = Vec::new();
+    for grid in 0..6_usize {
+        for along in 0..2 {
+            let other = grid.checked_sub(1).map(|grid| row(grid, along));
+            all.push((row(grid, along), other, 1e5 * (1.0 + 0.7 * along as f64)));
+        }
+        if grid > 0 {
+            all.push((row(grid, 0), Some(row(grid - 1, 1)), 2e4));
+        }
+    }
+    let stiffness = springs(rows, &all).dense();
+    let mass = eye(rows) * 3.0;
+    let modes = solve(&stiffness, &mass, 5).unwrap();
+    let mut files = of_matrices(&[stiffness], &mass, &modes);
+    let lines = (1..=6).flat_map(|grid| ["x", "y"].map(|along| format!("{grid},{along}\n")));
+    *file(&mut files, "rows.csv") = lines.collect();
+    retested(files, |data| {
+        data.shapes = data.shapes.select_rows(&[0, 2, 4, 6, 8, 10]);
+        data.sensors.truncate(6);
+        for (grid, sensor) in data.sensors.iter_mut().enumerate() {
+            sensor.grid = Some(grid + 1);
+        }
     })
 }
 
@@ -153,51 +169,52 @@ fn alike() -> Files {
 fn built() -> Vec<(String, Files)> {
     let mut all: Vec<(String, Files)> = Vec::new();
     let mut add = |name: &str, files: Files| all.push((format!("built/{name}"), files));
+    let building_with = |seed: u64, edit: fn(&mut TestData)| {
+        retested(building(), |data| {
+            *data = noisy(data, seed);
+            edit(data);
+        })
+    };
     for seed in 0..4 {
         add(
             &format!("noisy building {seed}"),
-            with_building_noise(seed, |_| {}),
+            building_with(seed, |_| {}),
         );
     }
-    add(
-        "building reversed",
-        with_building_noise(5, |data| data.shapes.row_mut(2).neg_mut()),
-    );
-    add(
-        "building exchanged",
-        with_building_noise(6, |data| data.shapes.swap_rows(0, 3)),
-    );
-    add(
-        "building gain",
-        with_building_noise(7, |data| data.shapes.row_mut(3).scale_mut(3.0)),
-    );
-    add(
-        "building dead",
-        with_building_noise(8, |data| data.shapes.row_mut(4).fill(0.0)),
-    );
-    let turned = |data: &mut TestData| data.frequencies_hz.iter_mut().for_each(|own| *own *= TAU);
-    add("building in rad/s", with_building_noise(9, turned));
-    let off = |data: &mut TestData| data.frequencies_hz[2] *= 1.03;
-    add("building off", with_building_noise(10, off));
-    add("building by the paper", compared("method = \"paper\""));
-    add("building from starts", compared("starts = 5"));
-    add(
-        "building with weights",
-        compared("shape_weights = [1, 1, 0.5, 1, 0]"),
-    );
-    add(
-        "building by noise",
-        compared("frequency_deviation = 0.001\nshape_deviation = 0.05"),
-    );
-    let held = with(building(), "job.toml", "[test]", "[test]\nhold_out = [4]");
-    add("building held out", held);
-    let chosen = with(
-        building(),
-        "job.toml",
-        "[test]",
-        "[test]\nmodes = [1, 2, 4]",
-    );
-    add("building chosen", chosen);
+    let edits: [(&str, fn(&mut TestData)); 6] = [
+        ("reversed", |data| data.shapes.row_mut(2).neg_mut()),
+        ("exchanged", |data| data.shapes.swap_rows(0, 3)),
+        ("gain", |data| data.shapes.row_mut(3).scale_mut(3.0)),
+        ("dead", |data| data.shapes.row_mut(4).fill(0.0)),
+        ("in rad/s", |data| {
+            data.frequencies_hz.iter_mut().for_each(|own| *own *= TAU)
+        }),
+        ("off", |data| data.frequencies_hz[2] *= 1.03),
+    ];
+    for (seed, (name, edit)) in (5..).zip(edits) {
+        add(&format!("building {name}"), building_with(seed, edit));
+    }
+    for (name, entries) in [
+        ("by the paper", "method = \"paper\""),
+        ("from starts", "starts = 5"),
+        ("with weights", "shape_weights = [1, 1, 0.5, 1, 0]"),
+        (
+            "by noise",
+            "frequency_deviation = 0.001\nshape_deviation = 0.05",
+        ),
+    ] {
+        add(&format!("building {name}"), comparing(building(), entries));
+    }
+    for (name, entry) in [
+        ("held out", "hold_out = [4]"),
+        ("chosen", "modes = [1, 2, 4]"),
+    ] {
+        let entry = format!("[test]\n{entry}");
+        add(
+            &format!("building {name}"),
+            with(building(), "job.toml", "[test]", &entry),
+        );
+    }
     let tests = (0..3).map(|seed| noisy(&exact(), seed)).collect_vec();
     add("building repeated", repeated(&tests, "[1, 2, 3, 4, 5]"));
     for modes in [&[2, 4][..], &[5]] {
@@ -229,7 +246,7 @@ fn built() -> Vec<(String, Files)> {
     add("free chain", free_chain(None));
     add("free chain reversed", free_chain(Some(3)));
     add("plane", plane());
-    add("free masses", free());
+    add("free masses", free_masses());
     add("right building", tested(|_| {}));
     add(
         "right building twice",
@@ -266,8 +283,7 @@ fn equal_roots_end_no_run_however_many_modes_are_taken() {
             let files = comparing(files, &format!("analysis_modes = {taken}"));
             let (_folder, path) = placed(&files);
             for command in ["check", "correlate"] {
-                let mut program = assert_cmd::Command::cargo_bin("corfem").unwrap();
-                let output = program.arg(command).arg(&path).arg("-q").output().unwrap();
+                let output = printed(command, &path, "text");
                 let words = String::from_utf8(output.stderr).unwrap();
                 assert_ne!(output.status.code(), Some(2), "{command}, {taken}: {words}");
             }
@@ -279,9 +295,7 @@ fn equal_roots_end_no_run_however_many_modes_are_taken() {
 #[test]
 fn a_look_ends_in_3_exactly_where_a_doubt_stands() {
     for (name, path) in [in_folder("tests/jobs"), in_folder("tests/runs")].concat() {
-        let mut program = assert_cmd::Command::cargo_bin("corfem").unwrap();
-        let command = program.arg("check").arg(path).args(["-q", "-f", "json"]);
-        let output = command.output().unwrap();
+        let output = printed("check", &path, "json");
         let Ok(found) = serde_json::from_slice::<Value>(&output.stdout) else {
             assert_eq!(output.status.code(), Some(2), "{name}");
             continue;
@@ -335,20 +349,7 @@ fn the_airplane_ends_alike_from_ten_digits() {
     let end = |files: &Files| finished(&prepared(files));
     let whole = end(&files_of("garteur"));
     for digits in [10, 12] {
-        let mut files = files_of("garteur");
-        for (_, text) in files.iter_mut().filter(|own| own.0.ends_with(".mtx")) {
-            let lines = text
-                .lines()
-                .enumerate()
-                .map(|(at, line)| match line.rsplit_once(' ') {
-                    Some((place, value)) if at > 1 => {
-                        let value: f64 = value.parse().unwrap();
-                        format!("{place} {value:.*e}", digits - 1)
-                    }
-                    _ => line.to_owned(),
-                });
-            *text = lines.collect_vec().join("\n");
-        }
+        let files = written(&files_of("garteur"), digits, ("", 1.0));
         let found = end(&files);
         assert_within(found.misfit.chi_squared, whole.misfit.chi_squared, 3.0);
         // Tailplane and joint are hardly seen.

@@ -182,3 +182,96 @@ fn modes_that_an_order_after_the_first_brings_together_are_refused() {
         "{refused:?}"
     );
 }
+
+#[test]
+fn a_change_of_mass_that_is_none_of_its_modes_is_refused() {
+    for (alpha, words) in [
+        (
+            DMatrix::zeros(5, 4),
+            "generalized mass change: 5 x 4 instead of 4 x 4",
+        ),
+        (
+            f64::NAN * eye(4),
+            "generalized mass change of entry (0, 0) is NaN; it must be a finite number",
+        ),
+    ] {
+        let change = ModalChange {
+            alpha,
+            ..four_modes(0.05)
+        };
+        assert_eq!(said(change.pencil()), words);
+    }
+}
+
+/// Left and right shapes that are not those of the stiffness.
+#[test]
+fn shapes_that_do_not_fit_a_stiffness_are_refused() {
+    let (stiffness, none) = (dmatrix![2.0, -1.0; -1.0, 2.0], zero_square(2));
+    let (own, nan) = (
+        dmatrix![1.0, 1.0; 1.0, -1.0],
+        dmatrix![0.0, f64::NAN; 0.0, 0.0],
+    );
+    for (right, left, change, words) in [
+        (&own, &own, &none, "an answer"),
+        (
+            &own,
+            &DMatrix::zeros(3, 2),
+            &none,
+            "left shapes: 3 x 2 instead of 2 x 2",
+        ),
+        (
+            &own,
+            &own,
+            &nan,
+            "stiffness change of entry (0, 1) is NaN; it must be a finite number",
+        ),
+        (
+            &eye(2),
+            &eye(2),
+            &none,
+            "coupling of left and right shapes of modes 1 and 0 is 0.5; it must be zero",
+        ),
+    ] {
+        let (right, left) = (right.clone(), left.clone());
+        let roots = dvector![1.0, 0.5];
+        let shapes = LeftRightModes { roots, right, left };
+        assert_eq!(said(Pencil::new(&stiffness, &shapes, change, &none)), words);
+    }
+}
+
+#[test]
+fn order_zero_is_refused() {
+    let change = four_modes(0.05);
+    let (k, beta, found) = (
+        &change.generalized_stiffness,
+        &change.beta,
+        change.pencil().unwrap(),
+    );
+    for answer in [
+        found.recursive_1(0),
+        found.recursive_2(0),
+        recursive_1(k, beta, 0),
+    ] {
+        assert_eq!(
+            said(answer),
+            "order: 0 given or asked for; there must be at least 1"
+        );
+    }
+}
+
+#[test]
+fn generalized_mass_that_loses_its_sign_is_refused() {
+    let mut change = four_modes(0.0);
+    change.alpha[(1, 1)] = -1.5;
+    let root = change.pencil().unwrap().first_order().unwrap().roots[1];
+    assert!((root + 0.5 / 2.5).abs() < ROUND_OFF);
+    let normalized = |alpha: &DMatrix<f64>| normalize_with_mass(&mut eye(4), alpha);
+    assert_eq!(
+        said(normalized(&change.alpha)),
+        "changed generalized mass of mode 1 (from zero) is -0.5; it must be positive and finite"
+    );
+    assert_eq!(
+        said(normalized(&DMatrix::zeros(3, 4))),
+        "generalized mass change: 3 x 4 instead of 4 x 4"
+    );
+}

@@ -2,7 +2,6 @@
 
 mod hostile;
 pub mod appendix_c;
-pub mod appendix_c_general;
 pub mod inner_loop;
 pub mod limits_of_numbers;
 pub mod mass_parameters;
@@ -10,5 +9,4 @@ pub mod model;
 pub mod modes;
 pub mod no_panic;
 pub mod outer_loop;
-pub mod pairing;
 pub mod structures;

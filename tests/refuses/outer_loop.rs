@@ -68,17 +68,19 @@ fn settings_are_checked_before_any_analysis() {
 
 #[test]
 fn the_inner_loops_errors_are_handed_on() {
-    assert_eq!(
-        said(with_settings(|settings| settings.inner.relaxation = 0.0)),
-        "relaxation of the inner loop is 0; it must be positive and finite"
-    );
-    assert_eq!(
-        said(with_settings(|settings| settings
-            .inner
-            .factor_range
-            .lower = 9.0)),
-        "factor limits: 9 to 1.5 is no range; the lower limit must be positive, the upper one larger and finite, and the starting factor 1 between them"
-    );
+    let of = |change: fn(&mut Settings)| said(correlate_with(analyzed, &[None; 3], change));
+    for (found, words) in [
+        (
+            of(|own| own.inner.relaxation = 0.0),
+            "relaxation of the inner loop is 0; it must be positive and finite",
+        ),
+        (
+            of(|own| own.inner.factor_range.lower = 9.0),
+            "factor limits: 9 to 1.5 is no range; the lower limit must be positive, the upper one larger and finite, and the starting factor 1 between them",
+        ),
+    ] {
+        assert_eq!(found, words);
+    }
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! What outputs show of odd names, what a corrected deck says at its head, what killed runs leave, and files without a last line end.
 
 use super::cli::{corfem, text, words};
+use crate::common::jobs::universal;
 use crate::prelude::*;
-use crate::readers::twice::universal;
 
 /// Characters that turn the direction of what follows.
 const TURNS: [char; 12] = [

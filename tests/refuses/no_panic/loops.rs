@@ -1,6 +1,6 @@
 //! Errors, analyses, steps and the loops.
 
-use super::{Entry, chain};
+use super::{Entry, Numbers, chain, unseen};
 use crate::prelude::*;
 
 /// A chain as sensors see it, with a share of its stiffness or of its mass.
@@ -33,6 +33,11 @@ fn weights(d: &mut Draws, count: usize) -> Vec<ModeWeight> {
     (0..count).map(both).collect()
 }
 
+/// Gage factors of so many parameters, or of others.
+fn gages(d: &mut Draws, count: usize) -> Vec<f64> {
+    (0..d.about(count)).map(|_| d.unit()).collect()
+}
+
 fn rule(d: &mut Draws) -> StepRule {
     StepRule::ALL[d.below(StepRule::ALL.len())]
 }
@@ -58,11 +63,8 @@ pub const LOOPS: &[Entry] = &[
     }),
     ("ModalModel::stiffness_changes", |d| {
         let model = chain(d)?;
-        let gages = (0..d.about(model.shares().len()))
-            .map(|_| d.unit())
-            .collect_vec();
-        let (state, rule) = (d.state(&model), rule(d));
-        Ok(model.stiffness_changes(&state, &gages, rule))
+        let (gages, state) = (gages(d, model.shares().len()), d.state(&model));
+        Ok(model.stiffness_changes(&state, &gages, rule(d)))
     }),
     ("SensorModel::at", |d| {
         let model = sensed(d)?;
@@ -78,9 +80,7 @@ pub const LOOPS: &[Entry] = &[
     }),
     ("SensorModel::stiffness_changes", |d| {
         let model = sensed(d)?;
-        let gages = (0..d.about(model.shares().len()))
-            .map(|_| d.unit())
-            .collect_vec();
+        let gages = gages(d, model.shares().len());
         Ok(model.stiffness_changes(model.exact(), &gages, rule(d)))
     }),
     ("SensorModel::weighted", |d| {
@@ -92,8 +92,10 @@ pub const LOOPS: &[Entry] = &[
     // A change whose entries are no numbers is refused by the formulae.
     ("derivatives::without_close_couplings", |d| {
         let size = d.size();
-        without_close_couplings(&d.list(size), &d.matrix(size, size));
-        Ok(Vec::new())
+        unseen(without_close_couplings(
+            &d.list(size),
+            &d.matrix(size, size),
+        ))
     }),
     ("derivatives::error_change", |d| {
         let model = chain(d)?;
@@ -103,7 +105,7 @@ pub const LOOPS: &[Entry] = &[
     ("changed_modes::changed_modes", |d| {
         let (count, size) = (d.size(), d.size());
         let (found, p) = changed_modes(&d.modes(count)?, &d.symmetric(size))?;
-        Ok([super::modes(&found), super::entries(&p)].concat())
+        Ok([found.numbers(), p.numbers()].concat())
     }),
     ("inner_loop::first_factors", |d| {
         let model = chain(d)?;
@@ -121,13 +123,8 @@ pub const LOOPS: &[Entry] = &[
         } else {
             d.list(count)
         };
-        let range = |d: &mut Draws| {
-            (d.below(2) == 0).then(|| Bounds {
-                lower: d.number(),
-                upper: d.number(),
-            })
-        };
-        let ranges = (0..count).map(|_| range(d)).collect_vec();
+        let range = |_| (d.below(2) == 0).then(|| d.bounds());
+        let ranges = (0..count).map(range).collect_vec();
         let mut settings = InnerSettings {
             iterations: d.below(4),
             halvings: d.below(4),
@@ -138,11 +135,8 @@ pub const LOOPS: &[Entry] = &[
             settings = InnerSettings {
                 first_relaxation: d.number(),
                 tolerance: d.number(),
+                factor_range: d.bounds(),
                 ..settings
-            };
-            settings.factor_range = Bounds {
-                lower: d.number(),
-                upper: d.number(),
             };
         }
         run(&model, &base, &ranges, &settings)
@@ -192,33 +186,31 @@ pub const LOOPS: &[Entry] = &[
             error_sum_tolerance: d.number(),
             ..Settings::default()
         };
-        settings.are_met_by(&d.errors());
-        Ok(Vec::new())
+        unseen(settings.are_met_by(&d.errors()))
     }),
     ("step::unlimited_factor", |d| {
-        unlimited_factor(d.number(), d.number(), d.number(), d.number());
-        Ok(Vec::new())
+        unseen(unlimited_factor(
+            d.number(),
+            d.number(),
+            d.number(),
+            d.number(),
+        ))
     }),
     ("step::limited_factor", |d| {
-        let range = Bounds {
-            lower: d.number(),
-            upper: d.number(),
-        };
-        limited_factor(
+        let range = d.bounds();
+        unseen(limited_factor(
             d.number(),
             d.number(),
             d.number(),
             d.number(),
             range,
             Some(range),
-        );
-        Ok(Vec::new())
+        ))
     }),
     // The measure of numbers that are none is none; the analysis has refused them.
     ("StepRule::measure", |d| {
         let (rows, columns, rule) = (d.size(), d.size(), rule(d));
-        rule.measure(&d.matrix(rows, columns), d.number(), d.number());
-        Ok(Vec::new())
+        unseen(rule.measure(&d.matrix(rows, columns), d.number(), d.number()))
     }),
     ("Errors::of", |d| {
         let each = (0..d.size())

@@ -1,20 +1,20 @@
 //! Matrices, modes and measured modes.
 
-use super::{Entry, chain, entries, modes};
+use super::{Entry, Numbers, chain, unseen};
 use crate::prelude::*;
 use corfem::method::linear_algebra::check_length;
 
 pub const MATRICES: &[Entry] = &[
     ("linear_algebra::check_finite", |d| {
         let matrix = d.symmetric(3);
-        check_finite("matrix", &matrix).map(|()| entries(&matrix))
+        check_finite("matrix", &matrix).map(|()| matrix.numbers())
     }),
     ("linear_algebra::check_symmetric", |d| {
-        check_symmetric("matrix", &d.symmetric(3)).map(|()| Vec::new())
+        check_symmetric("matrix", &d.symmetric(3)).map(Numbers::numbers)
     }),
     ("linear_algebra::cholesky", |d| {
         let size = d.size();
-        cholesky("matrix", &d.symmetric(size), 0.0).map(|found| entries(&found))
+        cholesky("matrix", &d.symmetric(size), 0.0).map(Numbers::numbers)
     }),
     ("linear_algebra::symmetric_eigen", |d| {
         let size = d.size();
@@ -22,27 +22,25 @@ pub const MATRICES: &[Entry] = &[
             .map(|(values, vectors)| values.iter().chain(vectors.iter()).copied().collect())
     }),
     ("linear_algebra::symmetric_part", |d| {
-        symmetric_part(&d.symmetric(3));
-        Ok(Vec::new())
+        unseen(symmetric_part(&d.symmetric(3)))
     }),
     ("modes::solve", |d| {
         let (size, count) = (d.size(), d.size());
-        solve(&d.symmetric(size), &d.symmetric(size), count).map(|found| modes(&found))
+        solve(&d.symmetric(size), &d.symmetric(size), count).map(Numbers::numbers)
     }),
     ("Modes::from_measured", |d| {
         let (count, dof) = (d.size(), d.size());
         let (frequencies, columns) = (d.list(count), d.about(count));
-        Modes::from_measured(&frequencies, &d.matrix(dof, columns)).map(|found| modes(&found))
+        Modes::from_measured(&frequencies, &d.matrix(dof, columns)).map(Numbers::numbers)
     }),
     ("Modes::scaled_with", |d| {
         let size = d.size();
         d.modes(size)?
             .scaled_with(&d.symmetric(size))
-            .map(|found| entries(found.shapes()))
+            .map(|found| found.shapes().clone().numbers())
     }),
     ("modes::apply_sign_rule", |d| {
-        apply_sign_rule(&mut d.symmetric(3));
-        Ok(Vec::new())
+        unseen(apply_sign_rule(&mut d.symmetric(3)))
     }),
     ("sorting::cross_orthogonality", |d| {
         let size = d.size();
@@ -52,7 +50,7 @@ pub const MATRICES: &[Entry] = &[
     ("assurance::modal_assurance", |d| {
         let (rows, one, other) = (d.size(), d.size(), d.size());
         let others = d.about(rows);
-        modal_assurance(&d.matrix(rows, one), &d.matrix(others, other)).map(|found| entries(&found))
+        modal_assurance(&d.matrix(rows, one), &d.matrix(others, other)).map(Numbers::numbers)
     }),
     ("sorting::pair_modes", |d| {
         let (rows, columns) = (d.size(), d.size());
@@ -60,11 +58,11 @@ pub const MATRICES: &[Entry] = &[
     }),
     ("modes::generalized_mass", |d| {
         let size = d.size();
-        generalized_mass(d.modes(size)?.shapes(), &d.symmetric(size)).map(|found| entries(&found))
+        generalized_mass(d.modes(size)?.shapes(), &d.symmetric(size)).map(Numbers::numbers)
     }),
     ("appendix_b::orthogonalize", |d| {
         let size = d.size();
-        orthogonalize(&d.modes(size)?, &d.symmetric(size)).map(|found| modes(&found.modes))
+        orthogonalize(&d.modes(size)?, &d.symmetric(size)).map(|found| found.modes.numbers())
     }),
     ("appendix_b::balance", |d| {
         let (size, rigid) = (d.size(), d.size());
@@ -74,7 +72,7 @@ pub const MATRICES: &[Entry] = &[
             // A free structure and its motion, so that some calls are answered.
             (stiffness, motions) = (zero_square(size), DMatrix::from_element(size, 1, 1.0));
         }
-        balance(&set, &stiffness, &mass, &motions).map(|found| entries(&found.shapes))
+        balance(&set, &stiffness, &mass, &motions).map(|found| found.shapes.numbers())
     }),
     ("appendix_b::examine", |d| {
         let size = d.size();
@@ -89,7 +87,7 @@ pub const MATRICES: &[Entry] = &[
             limits
         };
         examine(&d.modes(size)?, &d.symmetric(size), Supports::Held, &limits)
-            .map(|found| modes(&found.modes))
+            .map(|found| found.modes.numbers())
     }),
     ("appendix_b::rigid_body_vectors", |d| {
         let corners = d.corners();
@@ -102,10 +100,10 @@ pub const MATRICES: &[Entry] = &[
     }),
     ("linear_algebra::check_shape", |d| {
         let (rows, columns) = (d.size(), d.size());
-        check_shape("matrix", &d.symmetric(3), rows, columns).map(|()| Vec::new())
+        check_shape("matrix", &d.symmetric(3), rows, columns).map(Numbers::numbers)
     }),
     ("linear_algebra::check_length", |d| {
-        check_length("list", d.size(), d.size()).map(|()| Vec::new())
+        check_length("list", d.size(), d.size()).map(Numbers::numbers)
     }),
     ("Modes::frequencies_hz", |d| {
         let (size, count) = (d.size(), d.size());
@@ -117,11 +115,7 @@ pub const MATRICES: &[Entry] = &[
     }),
     ("Modes::lowest", |d| {
         let count = d.size();
-        chain(d)?
-            .exact()
-            .modes
-            .lowest(count)
-            .map(|found| modes(&found))
+        chain(d)?.exact().modes.lowest(count).map(Numbers::numbers)
     }),
     ("Pairing::paired", |d| {
         let (size, count) = (d.size(), d.size());
@@ -129,6 +123,6 @@ pub const MATRICES: &[Entry] = &[
         let pairing = d.pairing(count, analysis.len())?;
         pairing
             .paired(&analysis)
-            .map(|found| entries(found.shapes()))
+            .map(|found| found.shapes().clone().numbers())
     }),
 ];

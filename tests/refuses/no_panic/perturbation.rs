@@ -1,25 +1,21 @@
 //! Appendix C.
 
-use super::{Answer, Entry, entries};
+use super::{Entry, Numbers, told};
 use crate::prelude::*;
-
-fn perturbed(found: Result<Perturbed, Error>) -> Answer {
-    found.map(|Perturbed { roots, shapes }| roots.iter().chain(shapes.iter()).copied().collect())
-}
 
 pub const PERTURBATION: &[Entry] = &[
     ("perturbation::first_order", |d| {
         let size = d.size();
-        perturbed(first_order(&d.vector(size), &d.symmetric(size)))
+        told(first_order(&d.vector(size), &d.symmetric(size)))
     }),
     ("perturbation::recursive_1", |d| {
         let (size, order) = (d.size(), d.size());
-        perturbed(recursive_1(&d.vector(size), &d.symmetric(size), order))
+        told(recursive_1(&d.vector(size), &d.symmetric(size), order))
     }),
     ("perturbation::recursive_1_converged", |d| {
         let size = d.size();
         let found = recursive_1_converged(&d.vector(size), &d.symmetric(size));
-        perturbed(found.map(|found| found.perturbed))
+        told(found.map(|found| found.perturbed))
     }),
     // A sum beyond the largest number, and a stiffness that is none, are refused by the formulae.
     ("Pencil::of_vibrations", |d| {
@@ -40,28 +36,28 @@ pub const PERTURBATION: &[Entry] = &[
             },
         };
         let found = Pencil::new(&stiffness, &modes, &change, &g_change)?;
-        perturbed(found.first_order())
+        told(found.first_order())
     }),
     ("Pencil::transposed", |d| {
-        perturbed(d.change().pencil()?.transposed().first_order())
+        told(d.change().pencil()?.transposed().first_order())
     }),
     ("Pencil::first_order", |d| {
-        perturbed(d.change().pencil()?.first_order())
+        told(d.change().pencil()?.first_order())
     }),
     ("Pencil::recursive_1", |d| {
         let found = d.change().pencil()?;
-        perturbed(found.recursive_1(d.size()))
+        told(found.recursive_1(d.size()))
     }),
     ("Pencil::recursive_1_converged", |d| {
         let found = d.change().pencil()?.recursive_1_converged();
-        perturbed(found.map(|found| found.perturbed))
+        told(found.map(|found| found.perturbed))
     }),
     ("Pencil::recursive_2", |d| {
         let found = d.change().pencil()?;
-        perturbed(found.recursive_2(d.size()))
+        told(found.recursive_2(d.size()))
     }),
     ("Pencil::original", |d| {
-        perturbed(d.change().pencil()?.original())
+        told(d.change().pencil()?.original())
     }),
     ("appendix_c::solve", |d| {
         let size = d.size();
@@ -73,6 +69,6 @@ pub const PERTURBATION: &[Entry] = &[
     ("mass_changes::normalize_with_mass", |d| {
         let size = d.size();
         let mut shapes = d.symmetric(size);
-        normalize_with_mass(&mut shapes, &d.symmetric(size)).map(|()| entries(&shapes))
+        normalize_with_mass(&mut shapes, &d.symmetric(size)).map(|()| shapes.numbers())
     }),
 ];

@@ -1,6 +1,6 @@
 //! Elements, structures and models.
 
-use super::{Entry, entries, modes};
+use super::{Entry, Numbers, unseen};
 use crate::common::structures::of_dense;
 use crate::prelude::*;
 use corfem::method::appendix_a;
@@ -25,34 +25,28 @@ pub const STRUCTURES: &[Entry] = &[
     // Corners without length or area, and a product of these beyond the largest number, are refused by the structure and the model that
     // they become part of.
     ("elements::rod", |d| {
-        rod(&d.corners()[..2], d.number());
-        Ok(Vec::new())
+        unseen(rod(&d.corners()[..2], d.number()))
     }),
     ("elements::triangle", |d| {
-        triangle(&d.corners()[..3], &d.material());
-        Ok(Vec::new())
+        unseen(triangle(&d.corners()[..3], &d.material()))
     }),
     ("elements::membrane", |d| {
-        membrane(&d.corners(), &d.material());
-        Ok(Vec::new())
+        unseen(membrane(&d.corners(), &d.material()))
     }),
     ("elements::shear_panel", |d| {
-        shear_panel(&d.corners(), &d.material());
-        Ok(Vec::new())
+        unseen(shear_panel(&d.corners(), &d.material()))
     }),
     ("structure::check_corners", |d| {
         let (kind, corners) = (kind(d), d.corners());
-        check_corners(1, kind, &corners[..d.below(5)]).map(|()| Vec::new())
+        check_corners(1, kind, &corners[..d.below(5)]).map(Numbers::numbers)
     }),
     ("elements::unit_stiffness", |d| {
         let (kind, corners) = element(d);
-        unit_stiffness(kind, &corners, &d.material());
-        Ok(Vec::new())
+        unseen(unit_stiffness(kind, &corners, &d.material()))
     }),
     ("elements::corner_volumes", |d| {
         let (kind, corners) = element(d);
-        corner_volumes(kind, &corners);
-        Ok(Vec::new())
+        unseen(corner_volumes(kind, &corners))
     }),
     ("elements::lumped_masses", |d| {
         let structure = d.structure()?;
@@ -77,21 +71,9 @@ pub const STRUCTURES: &[Entry] = &[
             .analyze(&test, count)
             .map(|found| vec![found.exact().errors.sum()])
     }),
-    ("Bounds::holds_start", |d| {
-        Bounds {
-            lower: d.number(),
-            upper: d.number(),
-        }
-        .holds_start();
-        Ok(Vec::new())
-    }),
+    ("Bounds::holds_start", |d| unseen(d.bounds().holds_start())),
     ("Bounds::contains", |d| {
-        Bounds {
-            lower: d.number(),
-            upper: d.number(),
-        }
-        .contains(d.number());
-        Ok(Vec::new())
+        unseen(d.bounds().contains(d.number()))
     }),
     ("elements::mean_plane", |d| {
         let corners = d.corners();
@@ -100,12 +82,10 @@ pub const STRUCTURES: &[Entry] = &[
         Ok(mean_plane(&corners).iter().flatten().copied().collect())
     }),
     ("elements::corner_forces", |d| {
-        corner_forces(&d.corners());
-        Ok(Vec::new())
+        unseen(corner_forces(&d.corners()))
     }),
     ("elements::energy_coefficient", |d| {
-        energy_coefficient(&d.corners(), &d.material());
-        Ok(Vec::new())
+        unseen(energy_coefficient(&d.corners(), &d.material()))
     }),
     ("Structure::new", |d| {
         let structure = d.structure()?;
@@ -114,12 +94,10 @@ pub const STRUCTURES: &[Entry] = &[
     }),
     ("Structure::free_dof_index", |d| {
         let (structure, grid, direction) = (d.structure()?, d.size(), d.size());
-        structure.free_dof_index(grid, direction);
-        Ok(Vec::new())
+        unseen(structure.free_dof_index(grid, direction))
     }),
     ("appendix_a::element_matrices", |d| {
-        element_matrices(&d.structure()?).for_each(drop);
-        Ok(Vec::new())
+        unseen(element_matrices(&d.structure()?).for_each(drop))
     }),
     ("appendix_a::assemble", |d| {
         let (elements, sizes, free) = d.elements()?;
@@ -141,7 +119,7 @@ pub const STRUCTURES: &[Entry] = &[
         let stiffness = assemble(&elements, &sizes, free.len())?;
         of_dense(&stiffness)?
             .solve(&d.matrix(rows, columns))
-            .map(|found| entries(&found))
+            .map(Numbers::numbers)
     }),
     ("Factor::new", |d| {
         let size = d.size();
@@ -153,7 +131,9 @@ pub const STRUCTURES: &[Entry] = &[
         let structural = assemble(&elements, &sizes, free.len())?;
         let load_distribution = d.load_distribution(free.len());
         let found = appendix_a::condense(&structural, &load_distribution)?;
-        Ok([entries(&found.stiffness), entries(&found.transformation)].concat())
+        Ok([found.stiffness, found.transformation]
+            .map(Numbers::numbers)
+            .concat())
     }),
     ("FiniteElementModel::new", |d| {
         let structure = d.structure()?;
@@ -170,15 +150,10 @@ pub const STRUCTURES: &[Entry] = &[
         Ok(entries.map(|entry| entry.2).collect())
     }),
     ("FiniteElementModel::factor_ranges", |d| {
-        let (model, factors) = d.finite_element()?;
-        let ranges = model
-            .factor_ranges()
-            .map(|ranges| ranges.into_iter().flatten().collect_vec())?;
+        let ranges = d.finite_element()?.0.factor_ranges()?.into_iter();
         Ok(ranges
-            .iter()
-            .flat_map(|range| [range.lower, range.upper])
-            .chain(factors)
-            .take(2 * ranges.len())
+            .flatten()
+            .flat_map(|own| [own.lower, own.upper])
             .collect())
     }),
     ("FiniteElementModel::sizes", |d| {
@@ -188,7 +163,9 @@ pub const STRUCTURES: &[Entry] = &[
     ("FiniteElementModel::condense", |d| {
         let (model, factors) = d.finite_element()?;
         let found = model.condense(&factors)?;
-        Ok([entries(&found.stiffness), entries(&found.transformation)].concat())
+        Ok([found.stiffness, found.transformation]
+            .map(Numbers::numbers)
+            .concat())
     }),
     ("FiniteElementModel::analyze", |d| {
         let (model, factors) = d.finite_element()?;
@@ -201,15 +178,11 @@ pub const STRUCTURES: &[Entry] = &[
     ("FiniteElementModel::matrices", |d| {
         let (model, factors) = d.finite_element()?;
         let found = model.matrices(&factors)?;
-        Ok(found
-            .shares
-            .iter()
-            .flat_map(entries)
-            .chain(entries(&found.mass))
-            .collect())
+        let all = [found.shares, vec![found.mass]].concat().into_iter();
+        Ok(all.flat_map(Numbers::numbers).collect())
     }),
     ("FiniteElementModel::modes", |d| {
         let (model, factors) = d.finite_element()?;
-        model.modes(&factors).map(|found| modes(&found))
+        model.modes(&factors).map(Numbers::numbers)
     }),
 ];
