@@ -24,11 +24,11 @@ pub use crate::common::{
     condensed::{analyze_condensed, condensed},
     costly_config,
     decks::{bulk_data, bulk_text, read_deck},
-    delta_wing::{self, GROUPS, Group, TEST_MODES, first_model, measured_grids},
+    delta_wing::{self, GROUPS, first_model},
     diagonal,
     draws::{Draws, reached},
     eye,
-    golden::{Numbers, assert_golden, assert_table},
+    golden::{Numbers, assert_golden, assert_table, on_file},
     ground_tests::{ground_test, wing_test},
     in_root,
     jobs::{
@@ -137,7 +137,7 @@ pub use corfem::{
     },
     present::{
         PresentError,
-        check::{check_tables, suspects_table},
+        check::check_tables,
         compared::Derivatives,
         render::{self, csv, text},
         report::Report,
