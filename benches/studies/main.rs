@@ -73,27 +73,34 @@ fn is_stored((name, tables): &Study) -> bool {
     is_same
 }
 
+/// Holds the studies that are named against what is stored, or all but those that take minutes.
+fn check(asked: &[&String]) -> Result<(), String> {
+    let mut names = asked.iter().map(|name| &name[..]).collect_vec();
+    if names.is_empty() {
+        names.extend(STUDIES.map(|(name, _)| name));
+        names.retain(|name| !["coverage", "detection"].contains(name));
+    }
+    let mut others = Vec::new();
+    for name in names {
+        let study = STUDIES.iter().find(|(own, _)| *own == name);
+        if !is_stored(study.ok_or_else(|| format!("there is no study {name}"))?) {
+            others.push(name);
+        }
+    }
+    match others.is_empty() {
+        true => Ok(()),
+        false => Err(format!("not as stored: {}", others.join(", "))),
+    }
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Cargo names what it runs.
     let asked: Vec<String> = std::env::args().skip(1).collect();
     let asked: Vec<&String> = asked.iter().filter(|name| *name != "--bench").collect();
     let all = || STUDIES.iter();
     let drawn = || figures().into_iter();
-    if let Some((_, asked)) = asked
-        .split_first()
-        .filter(|(first, _)| **first == "--check")
-    {
-        let of_minutes = ["coverage", "detection"];
-        let mut wrong = all().collect_vec();
-        wrong.retain(|(name, _)| match asked.is_empty() {
-            true => !of_minutes.contains(name),
-            false => asked.iter().any(|own| own == name),
-        });
-        wrong.retain(|study| !is_stored(study));
-        return match wrong.is_empty() {
-            true => Ok(()),
-            false => Err("the tables of some studies are not those that are stored".into()),
-        };
+    if asked.first().is_some_and(|first| *first == "--check") {
+        return Ok(check(&asked[1..])?);
     }
     if asked.is_empty() {
         all().for_each(|(name, _)| println!("{name}"));

@@ -179,6 +179,7 @@ pub fn what_the_front_page_shows_is_what_the_program_prints() -> Vec<String> {
         let block = rest.split(kind).nth(place).unwrap();
         block.split("```").next().unwrap()
     };
+    assert_eq!(page.matches("```text\n").count(), 2);
     let scratch = new_folder();
     let mine = scratch.path().join("mine");
     let path = |name: &str| mine.join(name).to_str().unwrap().to_owned();
