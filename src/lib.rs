@@ -75,6 +75,7 @@
 #![doc = include_str!("../paper/library.md")]
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
+#![warn(clippy::too_many_lines)]
 
 pub mod method;
 pub mod sparse;

@@ -1,5 +1,7 @@
 //! The command line program: `corfem --help`.
 
+#![warn(clippy::too_many_lines)]
+
 mod program;
 
 use std::process::ExitCode;

@@ -1,20 +1,11 @@
-"""Appendix B, changes of mass and truncated sets by numpy: writes expected_appendices.toml beside it.
-
-    python3 golden/reference/appendices.py           (numpy as in requirements.txt; reference.py and elements.py beside it)
-    python3 golden/reference/appendices.py --check   (writes nothing, and refuses a file that is farther off than round-off)
+"""Appendix B and changes of mass by numpy, for vectors.py.
 
 It shares no code with the crate and goes other ways where there are any: balance by its own linear equations, the general formulae
-as matrices. What numbers it works on stands in the file with what it makes of them.
+as matrices.
 """
-import sys
-import tomllib
-
 import numpy as np
-import reference
-from reference import GAGES, GVT, HERE
 
 RNG = np.random.default_rng(1947)
-SAME = 1e-10  # what another processor's rounding changes of a list, relative to its largest number: 3e-11 at worst
 
 
 def listed(matrix):
@@ -107,63 +98,3 @@ def exact(k, beta, alpha):
     roots, p = np.linalg.eig(np.linalg.solve(np.diag(k) + beta, np.eye(len(k)) + alpha))
     order = np.abs(p).argmax(0).argsort()
     return roots[order], p[:, order] / np.diag(p[:, order])
-
-
-def changes_of_mass():
-    k = np.array([1.0, 2.3, 4.9, 9.0, 17.0])
-    root = np.sqrt(np.outer(k, k))
-    noise = lambda: RNG.standard_normal((5, 5))
-    symmetric = lambda m: (m + m.T) / 2
-    lines = []
-    for name, beta, alpha in (
-        ("symmetric", 0.01 * root * symmetric(noise()), 0.01 * symmetric(noise())),
-        ("unsymmetric", 0.01 * root * noise(), 0.01 * noise()),
-        ("complex", 0.01 * root * (noise() + 1j * noise()), 0.01 * (noise() + 1j * noise())),
-    ):
-        answers = {"original": general_recursive_1(k, beta, alpha, 1)}
-        answers["original"] = explicit_roots(k, beta, alpha, answers["original"][1]), answers["original"][1]
-        for order in (1, 2, 3, 5):
-            answers[f"recursive_1_{order}"] = general_recursive_1(k, beta, alpha, order)
-            answers[f"recursive_2_{order}"] = general_recursive_2(k, beta, alpha, order)
-        answers["exact"] = exact(k, beta, alpha)
-        values = {"beta": beta, "alpha": alpha}
-        for rule, (roots, shapes) in answers.items():
-            values |= {f"{rule}_roots": roots, f"{rule}_shapes": shapes}
-        lines += [f"[appendix_c_{name}]", f"k = {listed(k)}"]
-        for key, value in values.items():
-            lines += [f"{key} = {listed(np.real(value))}"]
-            lines += [f"{key}_imaginary = {listed(np.imag(value))}"] if np.iscomplexobj(value) else []
-    return lines
-
-
-def truncated(box):
-    """The exact check of the runs of Tables 9 to 12, by the reading that they were run with."""
-    lines = []
-    for test, fem in ((7, 7), (7, 9), (5, 5), (5, 7), (5, 9), (3, 5), (3, 7), (3, 9)):
-        (r,) = reference.correlate(box, 2, GAGES["case 2 initial"], 1, None, "relative", 1.0, None, test, fem)
-        lines += [f'["case 2, {test} test and {fem} analysis modes"]', f"frequencies = {listed(r['frequencies'])}",
-                  f"rms = {listed([r['frequency_rms'], r['shape_rms']])}"]
-    return lines
-
-
-def main():
-    box = reference.Box(tomllib.loads((HERE.parent.parent / "paper" / "reconstruction.toml").read_text()))
-    lines = ["# written by appendices.py; rows of matrices, units as in the crate"]
-    lines += balance_and_orthogonalize() + changes_of_mass() + truncated(box)
-    written = HERE / "expected_appendices.toml"
-    if "--check" in sys.argv:
-        return check(tomllib.loads(written.read_text()), tomllib.loads("\n".join(lines)))
-    written.write_text("\n".join(lines) + "\n")
-
-
-def check(written, again):
-    """Says by how much the file is off what the program writes now, and refuses more than round-off."""
-    assert {name: set(table) for name, table in written.items()} == {name: set(table) for name, table in again.items()}
-    lists = [(np.array(table[key], float), np.array(again[name][key], float)) for name, table in written.items() for key in table]
-    apart = max(np.abs(old - new).max() / np.abs(old).max() for old, new in lists)
-    print("off by at most %.1e of the largest number of a list" % apart)
-    sys.exit(None if apart < SAME else 1)
-
-
-if __name__ == "__main__":
-    main()

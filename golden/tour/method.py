@@ -1,6 +1,6 @@
 """The inner and outer loop, written in numpy from the text of paper/tour alone, against a dump of a case.
 
-    python3 golden/tour/method.py dump.json        (tests/ledgers/tour_program.rs gives it one)
+    python3 golden/tour/method.py dump.json        (tests/ledgers/programs.rs gives it one)
 
 It is given what the finite element model is asked for, K_D, M and the elements' shares of every analysis, and what was tested. All
 else it computes: modes (chapter 7), pairs and errors (3), derivatives (4), the step with its bounds and halvings (4 to 6), new modes by

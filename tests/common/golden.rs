@@ -42,14 +42,6 @@ impl Numbers {
         ..Self::AS_WRITTEN
     };
 
-    /// Counts of what happened to random tests, whole numbers too.
-    pub const COUNTED: Self = Self {
-        relative: 0.0,
-        absolute: GOLDEN_COUNT,
-        whole: true,
-        ..Self::AS_WRITTEN
-    };
-
     /// Whether two texts agree.
     pub fn agree(&self, one: &str, other: &str) -> bool {
         let (lines, others) = (lines(one), lines(other));
@@ -145,6 +137,15 @@ pub fn assert_table(table: &Table) {
     let one = from_ref(table);
     let golden = format!("{}\n{}", text(one), csv(one));
     assert_golden(&table.name, &golden, Numbers::BY_UNIT);
+}
+
+/// What stands in a file that the tests make; `CORFEM_WRITE=1` writes it anew.
+pub fn on_file(path: &str, new: &str) -> String {
+    let path = in_root(path);
+    if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
+        fs::write(&path, new).unwrap();
+    }
+    fs::read_to_string(path).unwrap()
 }
 
 /// Splits a text into numbers and the single characters between them.

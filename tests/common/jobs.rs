@@ -342,15 +342,6 @@ pub fn in_universal() -> Files {
     files
 }
 
-/// The same with a system of units, by code and factor of length.
-pub fn universal(code: usize, length: f64) -> Files {
-    let mut files = in_universal();
-    let units = format!("    -1\n   164\n{code:10}{:<20}{:10}\n", "Own", 2);
-    let factors = format!("{length:25.17E}{:25.17E}{:25.17E}\n    -1\n", 1.0, 1.0);
-    file(&mut files, "test.unv").insert_str(0, &(units + &factors));
-    files
-}
-
 /// A folder of its own, which goes with it.
 pub fn new_folder() -> TempDir {
     tempfile::tempdir().unwrap()

@@ -24,11 +24,11 @@ pub use crate::common::{
     condensed::{analyze_condensed, condensed},
     costly_config,
     decks::{bulk_data, bulk_text, read_deck},
-    delta_wing::{self, GROUPS, Group, TEST_MODES, first_model, measured_grids},
+    delta_wing::{self, GROUPS, first_model},
     diagonal,
     draws::{Draws, reached},
     eye,
-    golden::{Numbers, assert_golden, assert_table},
+    golden::{Numbers, assert_golden, assert_table, on_file},
     ground_tests::{ground_test, wing_test},
     in_root,
     jobs::{
@@ -138,12 +138,11 @@ pub use corfem::{
     },
     present::{
         PresentError,
-        check::{check_tables, suspects_table},
+        check::check_tables,
         compared::Derivatives,
         render::{self, csv, text},
         report::Report,
         table::{Cell, Digits, Table, numbers},
-        views::trust_table,
     },
     sparse::{
         CountedModes, FINITE, Factor, MOST_DENSE_ROWS, ModeWeight, Pair, ParameterMatrix,
@@ -151,7 +150,6 @@ pub use corfem::{
         elements::{corner_volumes, lumped_masses, support},
         modal_assurance, normalize_with_mass, pair_optimally,
         random::split_mix_64,
-        whole_modes::WholeModes,
     },
     torque_box::{
         CASES, Case, CaseResult, Grouping,

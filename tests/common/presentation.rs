@@ -6,6 +6,7 @@
 pub mod paper;
 
 #[path = "../../paper/studies/mod.rs"]
+#[allow(dead_code, reason = "the bench of studies uses the rest")]
 pub mod studies;
 
 #[path = "../../benches/wing/mod.rs"]

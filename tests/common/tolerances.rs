@@ -107,8 +107,6 @@ pub const COMPLEX_EIGEN_ROUND_OFF: f64 = 1e-10;
 pub const FORWARD_DIFFERENCE: f64 = 2e-3;
 /// Slopes this near an order are that order: half way to the next one.
 pub const ORDER_HALFWAY: f64 = 0.45;
-/// Errors below this are round-off of roots near one, a few hundred units in the last place.
-pub const MEASURABLE_ERROR: f64 = 5e-14;
 /// A state by Recursive 1 to roots within 1e-13, whose shapes then enter mass and stiffness products.
 pub const CONVERGED_STATE: f64 = 1e-9;
 /// Coefficient of the second-order terms of the error sum in the ratio of coupling to separation of two modes.
@@ -168,13 +166,6 @@ pub const NASTRAN_AGAIN: f64 = 1e-9;
 pub const PRINTED_SNAP_FACTOR: f64 = 5e-5;
 /// Half a unit of the seventh digit that NASTRAN printed in 1995 or 2019, relative, at worst; the older one's single precision is in it.
 pub const PRINTED_SEVEN_DIGITS: f64 = 5e-7;
-/// Gages of the delta wing after a correlation to 0.5 % of the error sum, where test modes see them; 2.2 % at worst. An error of
-/// 2.5 % in a group with 3 to 33 % of a mode's stiffness moves its frequency by 0.04 to 0.41 %: the tolerance asks no more.
-pub const RECOVERED_GAGE: f64 = 0.025;
-/// The same where they hardly see them, 11.4 and 6.5 %: in 2 % of a mode's stiffness that is 0.11 % of its frequency.
-pub const HIDDEN_GAGE: f64 = 0.12;
-/// Share of a test mode's stiffness that counts as seen; the two groups below have 1.5 and 2.3 %, the next 3.2 %.
-pub const SEEN_SHARE: f64 = 0.03;
 /// Initial shape errors, to which the box was fitted: 7.56, 0.84 and 8.92 % where 7.67, 0.83 and 8.94 % are printed; relative.
 pub const FITTED_SHAPE_ERROR: f64 = 0.02;
 /// Initial RMS frequency errors of the fitted box, in percent: 12.11, 20.63 and 5.67 where 12.76, 21.11 and 5.01 are printed.
@@ -212,10 +203,6 @@ pub const STANDARD_ERRORS: f64 = 4.0;
 pub const COUNTED_ROOT: f64 = 1e-9;
 /// Lowest squared frequency where stiffnesses differ 1e10 times: that many roundings of a sum of both, a few of them.
 pub const UNLIKE_STIFFNESS: f64 = 1e-5;
-/// Counts of seeds of a hundred in a golden: one at a threshold may fall on its other side on another machine.
-pub const GOLDEN_COUNT: f64 = 1.0;
-/// Least boxes of a hundred, unlike the reconstructed one, on which Case 4 names its faulty element: 67 to 73 when first counted.
-pub const LEAST_DETECTED_BOXES: usize = 65;
 /// Shapes of a subspace whose residual is 1e-10 of its root, divided by the distance of neighboring roots.
 pub const WHOLE_SHAPE: f64 = 1e-6;
 /// Stories of an exact building that five of ten floors recover without condensation, where the paper's loop stops at an error sum of a
@@ -233,10 +220,6 @@ pub const WEIGHTED_FACTOR: f64 = 1e-3;
 /// How far the mean of chi-squared over its degrees of freedom may be from one over three hundred tests of some fifteen degrees
 /// each: their sum has a standard deviation of 2.1 %, and 3 % is what is asked of it.
 pub const MEAN_MISFIT: f64 = 0.03;
-/// The same for one parameter in three hundred tests, whose standard error is 1.3 %: what is asked of each.
-pub const LEAST_PARAMETER_COVERAGE: f64 = 0.90;
-/// The least of the covers of Case 3 is 89.6 % of 289 intervals, below the 90 % that is asked, and by less than the standard error of 1.8 %.
-pub const LEAST_COVER: f64 = 0.896;
 /// Coverage over three hundred tests in a golden, in percent: one at an interval's end may fall on its other side elsewhere.
 pub const GOLDEN_COVERAGE: f64 = 0.34;
 /// The same where one parameter alone moves: by a line through places within two percent of an end, whose distance from the curve is of the
@@ -264,8 +247,6 @@ pub const OPTIMUM: f64 = 1e-3;
 pub const CONDENSED_GAGES: f64 = 2e-3;
 /// First bending of a slender wing box with posts and webs against a beam that only bends: shear makes it 0.09 % softer.
 pub const SLENDER_BEAM: f64 = 2e-3;
-/// Steps of a correlation of dozens of them, which may be one more or less on another machine.
-pub const GOLDEN_STEPS: f64 = 0.05;
 /// The history of a case against its enclosure, times the measured condition: some roundings.
 pub const CHAIN_ROUND_OFF: f64 = 1e-14;
 /// Relative margin by which every decision of a history is far from falling otherwise: 4.4e-4 in the nearest.

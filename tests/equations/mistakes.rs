@@ -87,11 +87,8 @@ fn wrong_answers_name_the_mistake() {
     let found = wrong_answers();
     let lines = found.iter().map(Value::to_string).collect_vec();
     let new = format!("[\n{}\n]\n", lines.join(",\n"));
-    let path = in_root("golden/wrong_answers.json");
-    if std::env::var("CORFEM_WRITE").is_ok_and(|value| value == "1") {
-        fs::write(&path, &new).unwrap();
-    }
-    let old: Vec<Value> = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let old = on_file("golden/wrong_answers.json", &new);
+    let old: Vec<Value> = serde_json::from_str(&old).unwrap();
     assert_eq!(old.len(), found.len());
     for (old, new) in old.iter().zip(&found) {
         let [before, now] = [old, new].map(|entry| flat(&entry["answer"]));

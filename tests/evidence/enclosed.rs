@@ -4,7 +4,6 @@
 //! The crate's distance from a proven number is held to its condition: how much one rounding counts, which the program measures by a noise
 //! of 1e-40 in its place. Its iterations, halvings and pairs are those of the enclosure, of which no decision hangs on less than 4e-4.
 
-use crate::paper::tables::cases::{frequency_table, gage_table};
 use crate::prelude::*;
 
 /// Decimals of twenty digits.
@@ -234,91 +233,4 @@ fn no_decision_of_a_run_is_near_to_falling_otherwise() {
             assert!(margin > NEAREST_DECISION, "{name}, {kind}: {margin:e}");
         }
     }
-}
-
-/// A computed cell against the number that it is of: the printed digits are those of the exact number, which is no nearer to rounding
-/// otherwise than its own digits.
-fn assert_prints(table: &Table, row: &str, column: usize, exact: f64) {
-    let rows = table.rows.iter().find(|own| own.label == row).unwrap();
-    let cell = &rows.cells[column];
-    let Cell::Number { .. } = cell else {
-        panic!("{}, {row}: {cell:?}", table.name)
-    };
-    let printed = cell.computed();
-    let digits = printed
-        .split_once('.')
-        .map_or(0, |(_, digits)| digits.len());
-    let units = exact * 10.0_f64.powi(digits as i32);
-    let from_half = (units - units.floor() - 0.5).abs();
-    let what = format!("{}, {row}: {printed} of {exact}", table.name);
-    assert!(
-        units == units.round() || from_half > ROUND_OFF * units.abs(),
-        "{what}"
-    );
-    let printed: f64 = printed.parse().unwrap();
-    assert_within(printed * 10.0_f64.powi(digits as i32), units, 0.5);
-}
-
-/// Every computed cell of Tables 3 to 8: frequencies, gages, their errors, and the root mean squares of both.
-#[test]
-fn every_digit_of_tables_3_to_8_is_proven() {
-    let mut cells = 0;
-    for (number, reading) in [(1, "own"), (2, "relative"), (3, "relative")] {
-        let run = &ENCLOSED[&format!("case {number}, {reading}")];
-        let found = case_run(&case_of(number));
-        let stages = || once(&run.initial).chain(run.passes.iter().map(|pass| &pass.check));
-        let table = frequency_table(&found).unwrap();
-        let test = numbers(&run.test_frequencies);
-        let mut prints = |table: &Table, row: &str, column: usize, exact: f64| {
-            assert_prints(table, row, column, exact);
-            cells += 1;
-        };
-        for (mode, own) in test.iter().enumerate() {
-            prints(&table, &(mode + 1).to_string(), 0, *own);
-        }
-        for (at, stage) in stages().enumerate() {
-            let (hertz, errors) = (numbers(&stage.frequencies), numbers(&stage.errors));
-            for (mode, own) in test.iter().enumerate() {
-                let (row, frequency) = ((mode + 1).to_string(), hertz[stage.paired[mode]]);
-                prints(&table, &row, 1 + 2 * at, frequency);
-                prints(&table, &row, 2 + 2 * at, 100.0 * (frequency / own - 1.0));
-            }
-            for (row, error) in ["frequency RMS", "shape RMS"].into_iter().zip(errors) {
-                prints(&table, row, 2 + 2 * at, 100.0 * error / 3.0);
-            }
-        }
-        let table = gage_table(&found).unwrap();
-        let first = found.case.first_gages();
-        let gages = once(first).chain(run.passes.iter().map(|pass| numbers(&pass.gages)));
-        for row in &table.rows[..PANEL_COUNT] {
-            prints(&table, &row.label, 1, TEST_GAGE);
-        }
-        for (at, gages) in gages.enumerate() {
-            let errors = gages
-                .iter()
-                .map(|gage| 100.0 * (gage / TEST_GAGE - 1.0))
-                .collect_vec();
-            for (panel, gage) in gages.iter().enumerate() {
-                let row = &table.rows[panel].label;
-                prints(&table, row, 2 + 2 * at, *gage);
-                prints(&table, row, 3 + 2 * at, errors[panel]);
-            }
-            for (row, kind) in [
-                ("shear RMS", ElementKind::ShearPanel),
-                ("membrane RMS", ElementKind::Membrane),
-            ] {
-                let of_kind = found
-                    .case
-                    .panels
-                    .iter()
-                    .zip(&errors)
-                    .filter(|(panel, _)| panel.kind == kind);
-                let own = of_kind.map(|(_, error)| *error).collect_vec();
-                if !own.is_empty() {
-                    prints(&table, row, 3 + 2 * at, rms(&own));
-                }
-            }
-        }
-    }
-    assert_eq!(cells, 589);
 }

@@ -1,98 +1,29 @@
-//! `paper/equations.toml` against the code: every equation is listed, every function and test named there exists, and every equation and
-//! sentence has a wrong form. `wrong_forms.rs` has what is done with these.
+//! `paper/equations.toml`, `paper/errata.md` and `tests/routes.toml` against the code. `wrong_forms.rs` has what is done with wrong forms.
 
-use crate::ledgers::files_below;
+use crate::ledgers::{defines, file, files, is_test, strings};
 use crate::prelude::*;
-use toml::{Table, Value};
+use toml::Table;
 
 /// Every equation number the paper has: 1 to 13, A.1 to A.9, B.1 to B.7, C.1 to C.24.
-pub fn numbers() -> Vec<String> {
-    let plain = (1..=13).map(|n| n.to_string());
-    let appendix = |letter: char, last: usize| (1..=last).map(move |n| format!("{letter}.{n}"));
-    plain
-        .chain(appendix('A', 9))
-        .chain(appendix('B', 7))
-        .chain(appendix('C', 24))
-        .collect()
+fn numbers() -> Vec<String> {
+    let mut numbers = Vec::new();
+    for (appendix, last) in [("", 13), ("A.", 9), ("B.", 7), ("C.", 24)] {
+        numbers.extend((1..=last).map(|number| format!("{appendix}{number}")));
+    }
+    numbers
 }
 
 /// Every equation and then every sentence, by its number or name.
 pub fn entries() -> Vec<(String, Table)> {
-    let text = include_str!("../../paper/equations.toml");
-    let document: Table = text.parse().unwrap();
-    let list = |kind: &str, key: &'static str| {
-        let list = document[kind].as_array().unwrap().clone();
-        list.into_iter().map(move |entry| {
-            let entry = entry.as_table().unwrap().clone();
-            (entry[key].as_str().unwrap().to_owned(), entry)
-        })
-    };
-    list("equation", "number")
-        .chain(list("sentence", "name"))
-        .collect()
-}
-
-pub fn strings(entry: &Table, key: &str) -> Vec<String> {
-    let list = entry
-        .get(key)
-        .and_then(Value::as_array)
-        .unwrap_or_else(|| panic!("{key} in {entry}"));
-    list.iter()
-        .map(|value| value.as_str().unwrap().to_owned())
-        .collect()
-}
-
-fn source(folder: &str, module: &str) -> Option<String> {
-    let root = in_root(folder);
-    let path = module.replace("::", "/");
-    [format!("{path}.rs"), format!("{path}/mod.rs")]
-        .iter()
-        .find_map(|file| fs::read_to_string(root.join(file)).ok())
-}
-
-/// Whether `folder` defines a function (or type) `module::name`.
-pub fn defines(folder: &str, full_name: &str, keywords: &[&str]) -> bool {
-    let Some((module, name)) = full_name.rsplit_once("::") else {
-        return false;
-    };
-    source(folder, module).is_some_and(|text| {
-        text.match_indices(name).any(|(at, _)| {
-            let before = &text[..at];
-            let after = text[at + name.len()..].chars().next();
-            keywords.iter().any(|keyword| before.ends_with(keyword))
-                && !after.is_some_and(|c| c.is_alphanumeric() || c == '_')
-        })
-    })
-}
-
-#[test]
-fn every_equation_is_listed_once_and_in_order() {
-    let listed = entries().into_iter().map(|(owner, _)| owner).collect_vec();
-    let (equations, sentences) = listed.split_at(numbers().len());
-    assert_eq!(equations, numbers());
-    let different: BTreeSet<&String> = sentences.iter().collect();
-    assert_eq!(different.len(), sentences.len());
-}
-
-#[test]
-fn every_function_named_exists() {
-    for (number, entry) in entries() {
-        let functions = strings(&entry, "functions");
-        assert!(
-            !functions.is_empty() || entry.contains_key("remark"),
-            "{number} has neither function nor remark"
-        );
-        for function in functions {
-            assert!(
-                defines(
-                    "src",
-                    &function,
-                    &["pub fn ", "pub struct ", "pub(crate) fn "]
-                ),
-                "{number}: {function}"
-            );
+    let document: Table = file("paper/equations.toml").parse().unwrap();
+    let mut entries = Vec::new();
+    for (kind, key) in [("equation", "number"), ("sentence", "name")] {
+        for entry in document[kind].as_array().unwrap() {
+            let owner = entry[key].as_str().unwrap().to_owned();
+            entries.push((owner, entry.as_table().unwrap().clone()));
         }
     }
+    entries
 }
 
 /// The test that executes an equation.
@@ -102,139 +33,122 @@ pub fn test_of(number: &str) -> String {
     format!("eq_{}", name.trim_start_matches('_'))
 }
 
-#[test]
-fn every_equation_is_executed_in_the_papers_order() {
-    let text = include_str!("../equations/mod.rs");
-    let listed = text.split_whitespace().filter(|word| {
-        let number = word.strip_prefix("eq_");
-        number.is_some_and(|number| !number.contains('"'))
-    });
-    let tests = numbers().iter().map(|number| test_of(number)).collect_vec();
-    assert_eq!(listed.collect_vec(), tests);
-    assert!(tests.is_sorted());
-}
-
-#[test]
-fn every_sentence_has_a_law_in_the_specification() {
-    for (name, entry) in entries() {
-        let tests = strings(&entry, "tests");
-        let has_law = tests.iter().any(|test| test.starts_with("spec::s"));
-        assert!(has_law || entry.contains_key("number"), "{name}");
+pub fn every_equation_has_its_function_its_tests_and_a_wrong_form() -> Vec<String> {
+    let (mut wrong, entries) = (Vec::new(), entries());
+    let executed = file("tests/equations/mod.rs")
+        .split_whitespace()
+        .collect_vec();
+    if !numbers()
+        .iter()
+        .eq(entries[..numbers().len()].iter().map(|(own, _)| own))
+    {
+        wrong.push("paper/equations.toml: equations are missing, or in another order".to_owned());
     }
-}
-
-#[test]
-fn every_test_named_exists_and_is_a_test() {
-    for (number, entry) in entries() {
-        for test in strings(&entry, "tests") {
-            assert!(
-                defines("tests", &test, &["#[test]\nfn ", "#[test]\n    fn "]),
-                "{number}: {test}"
-            );
+    for (owner, entry) in &entries {
+        let mut refuse = |what: &str| wrong.push(format!("paper/equations.toml: {owner}: {what}"));
+        let (functions, tests) = (strings(entry, "functions"), strings(entry, "tests"));
+        if functions.is_empty() && !entry.contains_key("remark") {
+            refuse("neither function nor remark");
+        }
+        let keywords = ["pub fn ", "pub struct ", "pub(crate) fn "];
+        for function in functions
+            .iter()
+            .filter(|own| !defines("src", own, &keywords))
+        {
+            refuse(function);
+        }
+        for test in tests.iter().filter(|test| !is_test(test)) {
+            refuse(test);
+        }
+        let has_law = match entry.contains_key("number") {
+            true => executed.contains(&&*test_of(owner)),
+            false => tests.iter().any(|test| test.starts_with("spec::s")),
+        };
+        if !has_law || entry["wrong"].as_array().is_none_or(Vec::is_empty) {
+            refuse("no law of its own, or no wrong form");
         }
     }
+    wrong
 }
 
-#[test]
-fn every_entry_says_what_it_is_and_has_a_wrong_form() {
-    for (number, entry) in entries() {
-        assert!(
-            entry["what"].as_str().is_some_and(|what| what.len() > 10),
-            "{number}"
-        );
-        let own = if entry.contains_key("number") {
-            ["number", "formula"]
-        } else {
-            ["name", "what"]
-        };
-        assert!(own.iter().all(|key| entry.contains_key(*key)), "{number}");
-        let known: BTreeSet<&str> = [
-            "what",
-            "functions",
-            "tests",
-            "wrong",
-            "correction",
-            "print",
-            "scan",
-            "remark",
-            "from",
-        ]
-        .into_iter()
-        .chain(own)
-        .collect();
-        assert!(
-            entry.keys().all(|key| known.contains(key.as_str())),
-            "{number}"
-        );
-        let forms = entry.get("wrong").and_then(Value::as_array);
-        assert!(forms.is_some_and(|forms| !forms.is_empty()), "{number}");
-    }
-}
-
-#[test]
-fn the_check_itself_finds_what_is_missing() {
-    assert!(defines("src", "method::modes::solve", &["pub fn "]));
-    assert!(!defines("src", "method::modes::solv", &["pub fn "]));
-    assert!(!defines(
-        "src",
-        "method::modes::solved_by_nobody",
-        &["pub fn "]
-    ));
-    assert!(!defines("src", "nowhere::solve", &["pub fn "]));
-    assert!(defines(
-        "tests",
-        "ledgers::equations::every_function_named_exists",
-        &["#[test]\nfn "]
-    ));
-    assert!(!defines(
-        "tests",
-        "ledgers::equations::numbers",
-        &["#[test]\nfn "]
-    ));
-}
-
-/// A file that nobody lists is a test that never runs.
-#[test]
-fn every_file_of_tests_is_part_of_the_test_program() {
-    let tests = in_root("tests");
-    assert_eq!(found(&tests, "main"), listed(&tests.join("main.rs")));
-    for room in listed(&tests.join("main.rs")) {
-        let folder = tests.join(&room);
-        assert_eq!(
-            found(&folder, "mod"),
-            listed(&folder.join("mod.rs")),
-            "{room}"
+/// Entries of the errata are paragraphs that begin in bold. Each names a test that shows it, or is of an equation whose print or scan is
+/// executed; and print and scan of every equation have their entry in their list.
+pub fn every_entry_of_the_errata_is_shown_by_a_test() -> Vec<String> {
+    let (mut wrong, equations) = (Vec::new(), entries());
+    let keeps = |number: &str, key: &str| {
+        let mut all = equations.iter();
+        all.any(|(own, entry)| own == number && entry.contains_key(key))
+    };
+    let exists = |name: &str| {
+        let test = format!("fn {name}(");
+        let mut all = files("tests/", ".rs").into_iter();
+        all.any(|(_, text)| {
+            text.contains(&format!("]\n{test}")) || text.contains(&format!("]\n    {test}"))
+        })
+    };
+    let lists = file("paper/errata.md").split("\n## ").skip(1);
+    for (list, key) in lists.zip(["print", "scan", ""]) {
+        let mut listed = BTreeSet::new();
+        for entry in list.split("\n\n**").skip(1) {
+            let title = entry.split("**").next().unwrap();
+            let brackets = title
+                .split('(')
+                .skip(1)
+                .map(|rest| rest.split(')').next().unwrap());
+            let own = brackets
+                .filter(|own| numbers().contains(&own.to_string()))
+                .collect_vec();
+            let code = entry.split('`').skip(1).step_by(2).collect_vec();
+            let is_name = |word: &&&str| {
+                word.contains('_')
+                    && word
+                        .chars()
+                        .all(|c| c == '_' || c.is_ascii_lowercase() || c.is_ascii_digit())
+            };
+            let tests = code.iter().filter(is_name).collect_vec();
+            let paths = code
+                .iter()
+                .filter(|word| word.starts_with("tests/"))
+                .collect_vec();
+            let is_executed = own
+                .iter()
+                .any(|own| keeps(own, "print") || keeps(own, "scan"));
+            let is_shown = is_executed
+                || tests.len() + paths.len() > 0
+                || super::words(entry).contains("No result depends on this");
+            let is_misplaced =
+                key == "print" && title.starts_with('(') && !own.iter().all(|own| keeps(own, key));
+            if !is_shown
+                || is_misplaced
+                || !tests.iter().all(|own| exists(own))
+                || !paths.iter().all(|own| in_root(own).is_file())
+            {
+                wrong.push(format!(
+                    "paper/errata.md: no test, or in a wrong list: {title}"
+                ));
+            }
+            listed.extend(own);
+        }
+        let missing = equations
+            .iter()
+            .filter(|(own, _)| keeps(own, key) && !listed.contains(&own[..]));
+        wrong.extend(
+            missing.map(|(own, _)| format!("paper/errata.md: ({own}): its {key} is not listed")),
         );
     }
+    wrong
 }
 
-/// The modules that a file lists.
-fn listed(file: &Path) -> BTreeSet<String> {
-    let text = fs::read_to_string(file).unwrap();
-    text.lines()
-        .filter_map(|line| {
-            line.trim_start_matches("pub ")
-                .strip_prefix("mod ")?
-                .strip_suffix(';')
-        })
-        .map(str::to_owned)
-        .collect()
-}
-
-/// The modules that stand in a folder, without the file that lists them.
-fn found(folder: &Path, list: &str) -> BTreeSet<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    entries
-        .map(|entry| entry.unwrap().path())
-        // A folder without source holds data.
-        .filter(|path| {
-            !path.is_dir()
-                || files_below(path)
-                    .iter()
-                    .any(|file| file.extension().is_some_and(|end| end == "rs"))
-        })
-        .filter(|path| path.is_dir() || path.extension().is_some_and(|end| end == "rs"))
-        .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
-        .filter(|name| name != list)
-        .collect()
+pub fn every_number_has_two_routes_and_tests_that_exist() -> Vec<String> {
+    let document: Table = file("tests/routes.toml").parse().unwrap();
+    let mut wrong = Vec::new();
+    for entry in document["number"].as_array().unwrap() {
+        let entry = entry.as_table().unwrap();
+        let (routes, tests) = (strings(entry, "routes"), strings(entry, "tests"));
+        let different: BTreeSet<&String> = routes.iter().collect();
+        if different.len() < 2 || tests.is_empty() || !tests.iter().all(|test| is_test(test)) {
+            wrong.push(format!("tests/routes.toml: {}", entry["what"]));
+        }
+    }
+    wrong
 }

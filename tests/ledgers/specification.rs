@@ -1,6 +1,7 @@
 //! The one page of the specification, `paper/specification.md`, made from `paper/equations.toml`: `documents.rs` holds them equal.
 
-use crate::ledgers::equations::{entries, strings, test_of};
+use crate::ledgers::equations::{entries, test_of};
+use crate::ledgers::strings;
 use crate::prelude::*;
 use std::fmt::Write;
 use toml::{Table, Value};

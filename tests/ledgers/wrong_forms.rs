@@ -5,8 +5,8 @@
 //! All of them are put into one copy of the crate below `target/`, each behind a switch that the environment sets, so that the copy is
 //! built once and its tests run once per form. Nothing of it stands in `src/`.
 
-use crate::ledgers::equations::{entries, strings, test_of};
-use crate::ledgers::files_below;
+use crate::ledgers::equations::{entries, test_of};
+use crate::ledgers::{file, files, files_below, is_word, strings};
 use crate::prelude::*;
 use std::sync::atomic::AtomicUsize;
 use std::thread;
@@ -28,17 +28,14 @@ pub(crate) fn is(form: usize) -> bool {
 }
 "#;
 
-/// The version of the copy.
-const VERSION: &str = "0.0.0";
 /// Properties draw the same cases for every form.
 const SEED: &str = "1986";
 /// A form whose tests take longer never ends.
 const LONGEST: Duration = Duration::from_secs(300);
-/// As many as the specification must have, and each room beside it.
-const LEAST: usize = 75;
-const LEAST_OF_ROOM: usize = 30;
-/// Rooms with lists of their own.
+/// Rooms with lists of their own, and as many forms as each must have; the specification must have more.
 const ROOMS: [&str; 3] = ["weighted", "job", "files"];
+const LEAST_OF_ROOM: usize = 30;
+const LEAST: usize = 75;
 /// Rooms of tests that the copy may have.
 const TESTS: [&str; 3] = ["spec", "readers", "evidence"];
 
@@ -46,66 +43,52 @@ const TESTS: [&str; 3] = ["spec", "readers", "evidence"];
 struct Form {
     /// From one, in the order of the list.
     number: usize,
-    /// The equation's number or the sentence's name, and what is wrong.
+    /// The equation's number, the sentence's name or the room, and what is wrong.
     what: String,
+    /// Below `src/`.
     file: String,
-    within: Option<String>,
+    /// The place of `old`, if it stands elsewhere too.
+    within: String,
     old: String,
     new: String,
     tests: Vec<String>,
 }
 
-fn text(table: &Table, key: &str) -> String {
-    let value = table.get(key).and_then(Value::as_str);
-    value
-        .unwrap_or_else(|| panic!("{key} in {table}"))
-        .to_owned()
-}
-
 fn forms() -> Vec<Form> {
-    let mut forms = Vec::new();
-    let mut add = |owner: &str, wrong: &Table, tests: &[String]| {
-        forms.push(Form {
-            number: forms.len() + 1,
-            what: format!("{owner}: {}", text(wrong, "what")),
-            file: text(wrong, "file"),
-            within: wrong.contains_key("within").then(|| text(wrong, "within")),
-            old: text(wrong, "old"),
-            new: text(wrong, "new"),
-            tests: tests.to_vec(),
-        });
-    };
+    let mut laws = Vec::new();
     for (owner, entry) in entries() {
         let mut tests = strings(&entry, "tests");
         if entry.contains_key("number") {
             tests.push(format!("equations::{}", test_of(&owner)));
         }
-        let wrong = entry["wrong"].as_array().unwrap().iter();
-        let wrong = wrong.filter_map(Value::as_table);
-        for wrong in wrong.filter(|wrong| wrong.contains_key("file")) {
-            add(&owner, wrong, &tests);
-        }
+        laws.push((owner, tests, entry["wrong"].clone()));
     }
     for room in ROOMS {
-        for law in laws(room) {
-            let tests = strings(&law, "tests");
-            for wrong in law["wrong"].as_array().unwrap() {
-                add(room, wrong.as_table().unwrap(), &tests);
-            }
+        let list: Table = file(&format!("tests/wrong_forms/{room}.toml"))
+            .parse()
+            .unwrap();
+        for law in list["law"].as_array().unwrap() {
+            let tests = strings(law.as_table().unwrap(), "tests");
+            laws.push((room.to_owned(), tests, law["wrong"].clone()));
+        }
+    }
+    let mut forms = Vec::new();
+    for (owner, tests, wrong) in laws {
+        let places = wrong.as_array().unwrap().iter();
+        for wrong in places.filter(|wrong| wrong.get("file").is_some()) {
+            let text = |key: &str| wrong.get(key).and_then(Value::as_str).unwrap_or_default();
+            forms.push(Form {
+                number: forms.len() + 1,
+                what: format!("{owner}: {}", text("what")),
+                file: text("file").to_owned(),
+                within: text("within").to_owned(),
+                old: text("old").to_owned(),
+                new: text("new").to_owned(),
+                tests: tests.clone(),
+            });
         }
     }
     forms
-}
-
-/// The laws of a room, each with its tests and wrong forms.
-fn laws(room: &str) -> Vec<Table> {
-    let path = root().join(format!("tests/wrong_forms/{room}.toml"));
-    let list = fs::read_to_string(path).expect(room);
-    let list: Table = list
-        .parse()
-        .unwrap_or_else(|error| panic!("{room}: {error}"));
-    let laws = list["law"].as_array().unwrap().iter();
-    laws.map(|law| law.as_table().unwrap().clone()).collect()
 }
 
 /// Code as it is compared: without white space, lines of comment, and the comma before a closing parenthesis, which are
@@ -128,19 +111,17 @@ fn code(source: &str) -> Vec<(char, usize)> {
     code
 }
 
-/// Where the source has a piece of code, if it has it once.
-fn place(code: &[(char, usize)], piece: &str) -> Result<Range<usize>, String> {
-    let piece = self::code(piece).into_iter().map(|(c, _)| c).collect_vec();
-    let is_here = |at: &usize| {
-        let here = code[*at..].iter().map(|(character, _)| character);
-        here.take(piece.len()).eq(&piece)
+/// The part of the code that is a piece of code, if it has it once.
+fn place<'a>(code: &'a [(char, usize)], piece: &str) -> Result<&'a [(char, usize)], String> {
+    let piece = self::code(piece);
+    let is_piece = |window: &&[(char, usize)]| {
+        let mut pairs = window.iter().zip(&piece);
+        pairs.all(|(one, other)| one.0 == other.0)
     };
-    let found = (0..=code.len() - piece.len().min(code.len()))
-        .filter(is_here)
-        .collect_vec();
-    match found[..] {
-        [at] if !piece.is_empty() => Ok(at..at + piece.len()),
-        _ => Err(format!("stands there {} times", found.len())),
+    let windows = code.windows(piece.len().max(1)).filter(is_piece);
+    match windows.collect_vec()[..] {
+        [found] if !piece.is_empty() => Ok(found),
+        ref found => Err(format!("stands there {} times", found.len())),
     }
 }
 
@@ -148,15 +129,14 @@ impl Form {
     /// The bytes of the source that the form replaces.
     fn bytes(&self, source: &str) -> Result<Range<usize>, String> {
         let code = code(source);
-        let refuse =
-            |piece: &str, why: String| format!("{}: {}: {piece:?} {why}", self.what, self.file);
-        let mut part = &code[..];
-        if let Some(within) = &self.within {
-            part = &code[place(part, within).map_err(|why| refuse(within, why))?];
-        }
-        let found = place(part, &self.old).map_err(|why| refuse(&self.old, why))?;
-        let (last, start) = part[found.end - 1];
-        Ok(part[found.start].1..start + last.len_utf8())
+        let part = match &self.within[..] {
+            "" => Ok(&code[..]),
+            within => place(&code, within),
+        };
+        let found = part.and_then(|part| place(part, &self.old));
+        let found = found.map_err(|why| format!("src/{}: {}: it {why}", self.file, self.what))?;
+        let (last, end) = found[found.len() - 1];
+        Ok(found[0].1..end + last.len_utf8())
     }
 }
 
@@ -168,21 +148,26 @@ fn with_forms(source: &str, forms: &[&Form]) -> Result<String, String> {
         placed.push((form.bytes(source)?, *form));
     }
     placed.sort_by_key(|(bytes, form)| (bytes.start, usize::MAX - bytes.end, form.number));
-    let (mut out, mut done) = (String::new(), 0);
-    for (outer, group) in groups(&placed)? {
+    let (mut out, mut done, mut rest) = (String::new(), 0, &placed[..]);
+    while let Some((outer, first)) = rest.first() {
+        let count = rest.iter().take_while(|(bytes, _)| bytes.start < outer.end);
+        let (group, others) = rest.split_at(count.count());
+        rest = others;
         out += &source[done..outer.start];
         let own = &source[outer.clone()];
         // A statement or a block needs no parentheses, and may not have any.
         let is_statement = own.ends_with([';', '}']);
         out += if is_statement { "" } else { "(" };
         for (bytes, form) in group {
-            let [before, after] =
-                [outer.start..bytes.start, bytes.end..outer.end].map(|rest| &source[rest]);
-            let number = form.number;
-            out += &format!(
-                "if crate::wrong_form::is({number}) {{ {before}{}{after} }} else ",
-                form.new
+            if bytes.end > outer.end {
+                return Err(format!("{} overlaps {}", first.what, form.what));
+            }
+            let (before, after) = (
+                &source[outer.start..bytes.start],
+                &source[bytes.end..outer.end],
             );
+            let (number, new) = (form.number, &form.new);
+            out += &format!("if crate::wrong_form::is({number}) {{ {before}{new}{after} }} else ");
         }
         out += &format!("{{ {own} }}{}", if is_statement { "" } else { ")" });
         done = outer.end;
@@ -190,47 +175,17 @@ fn with_forms(source: &str, forms: &[&Form]) -> Result<String, String> {
     Ok(out + &source[done..])
 }
 
-type Placed<'a> = (Range<usize>, &'a Form);
-/// A place and the forms in it.
-type Group<'a> = (Range<usize>, &'a [Placed<'a>]);
-
-/// Forms that share a place, each group with the place that contains all of it.
-fn groups<'a>(placed: &'a [Placed<'a>]) -> Result<Vec<Group<'a>>, String> {
-    let (mut groups, mut start) = (Vec::new(), 0);
-    while let Some((outer, first)) = placed.get(start) {
-        let rest = &placed[start..];
-        let count = rest
-            .iter()
-            .take_while(|(bytes, _)| bytes.start < outer.end)
-            .count();
-        if let Some((_, other)) = rest[..count]
-            .iter()
-            .find(|(bytes, _)| bytes.end > outer.end)
-        {
-            return Err(format!("{} overlaps {}", first.what, other.what));
-        }
-        groups.push((outer.clone(), &rest[..count]));
-        start += count;
-    }
-    Ok(groups)
-}
-
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
 /// Every file of `src/` that has wrong forms, with them.
-fn sources(forms: &[Form]) -> Result<BTreeMap<PathBuf, String>, String> {
+fn sources(forms: &[Form]) -> Result<BTreeMap<String, String>, String> {
     let mut by_file: BTreeMap<&str, Vec<&Form>> = BTreeMap::new();
     for form in forms {
         by_file.entry(&form.file).or_default().push(form);
     }
     let mut sources = BTreeMap::new();
-    for (file, forms) in by_file {
-        let path = Path::new("src").join(file);
-        let source =
-            fs::read_to_string(root().join(&path)).map_err(|why| format!("{file}: {why}"))?;
-        sources.insert(path, with_forms(&source, &forms)?);
+    for (name, forms) in by_file {
+        let path = format!("src/{name}");
+        let source = with_forms(file(&path), &forms)?;
+        sources.insert(path, source);
     }
     Ok(sources)
 }
@@ -242,55 +197,15 @@ fn every_wrong_form_stands_once_in_its_file() {
         let of_room = forms.iter().filter(|form| form.file.starts_with(room));
         assert!(of_room.count() >= LEAST_OF_ROOM, "{room}");
     }
-    let of_rooms = ROOMS.len() * LEAST_OF_ROOM;
-    assert!(
-        forms.len() >= LEAST + of_rooms,
-        "{} wrong forms",
-        forms.len()
-    );
-    let mut wrong = Vec::new();
+    assert!(forms.len() >= LEAST + ROOMS.len() * LEAST_OF_ROOM);
+    let piece = |text: &str| code(text).into_iter().map(|(c, _)| c).collect_vec();
     for form in &forms {
-        let path = root().join("src").join(&form.file);
-        let source = fs::read_to_string(&path).expect(&form.file);
-        wrong.extend(form.bytes(&source).err());
-        let pieces = [&form.old, &form.new]
-            .map(|piece| code(piece).into_iter().map(|(c, _)| c).collect::<String>());
-        if pieces[0] == pieces[1] || form.tests.is_empty() {
-            wrong.push(format!("{} changes nothing, or has no test", form.what));
-        }
+        let changes = piece(&form.old) != piece(&form.new);
+        assert!(changes && !form.tests.is_empty(), "{}", form.what);
     }
-    assert!(wrong.is_empty(), "{wrong:#?}");
+    let switches = |text: &String| text.matches("wrong_form::is(").count();
     let sources = sources(&forms).unwrap();
-    let switches: usize = sources
-        .values()
-        .map(|text| text.matches("wrong_form::is(").count())
-        .sum();
-    assert_eq!(switches, forms.len());
-}
-
-#[test]
-fn forms_of_one_place_are_alternatives_there() {
-    let form = |number, old: &str, new: &str| Form {
-        number,
-        what: number.to_string(),
-        file: String::new(),
-        within: None,
-        old: old.to_owned(),
-        new: new.to_owned(),
-        tests: Vec::new(),
-    };
-    let source = "let a = b\n    // c\n    + c;\nd(\n    e,\n);\n";
-    let (sum, part, call) = (
-        form(1, "b + c", "b"),
-        form(2, "c", "-c"),
-        form(3, "d(e);", ""),
-    );
-    let found = with_forms(source, &[&part, &call, &sum]).unwrap();
-    let expected = "let a = (if crate::wrong_form::is(1) { b } else if crate::wrong_form::is(2) { b\n    // c\n    + -c } else { b\n    // c\n    + c });\nif crate::wrong_form::is(3) {  } else { d(\n    e,\n); }\n";
-    assert_eq!(found, expected);
-    assert!(with_forms(source, &[&sum, &form(4, "+ c; d(e)", "")]).is_err());
-    assert!(with_forms(source, &[&form(5, "f", "")]).is_err());
-    assert!(with_forms("a + a", &[&form(6, "a", "")]).is_err());
+    assert_eq!(sources.values().map(switches).sum::<usize>(), forms.len());
 }
 
 /// Writes a file unless it says the same already, so that nothing is built twice.
@@ -304,174 +219,104 @@ fn write(path: &Path, text: &[u8]) {
 
 /// The modules that the forms need, by their rooms: those of their tests, and what these use.
 fn modules(forms: &[Form]) -> BTreeMap<String, BTreeSet<String>> {
-    let is_name = |c: &char| c.is_alphanumeric() || *c == '_';
-    let name = |rest: &str| rest.chars().take_while(is_name).collect::<String>();
+    let name = |rest: &str| rest.split(|c| !is_word(c)).next().unwrap().to_owned();
     let tests = forms.iter().flat_map(|form| &form.tests);
-    let mut wanted = tests
-        .filter(|test| !test.starts_with("equations::"))
-        .map(|test| {
-            let mut parts = test.split("::").map(str::to_owned);
-            let mut part = || parts.next().unwrap();
-            (part(), part())
-        })
-        .collect_vec();
+    let mut wanted = Vec::new();
+    for test in tests.filter(|test| !test.starts_with("equations::")) {
+        let (room, rest) = test.split_once("::").unwrap();
+        wanted.push((room.to_owned(), name(rest)));
+    }
     let mut modules: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     while let Some((room, module)) = wanted.pop() {
-        assert!(
-            TESTS.contains(&&*room),
-            "{room}::{module} is not in the copy"
-        );
-        let file = root()
-            .join("tests")
-            .join(&room)
-            .join(format!("{module}.rs"));
-        let text = fs::read_to_string(file).unwrap_or_default();
-        for other in ["presentation", "ledgers", "refuses"] {
-            assert!(
-                !text.contains(&format!("{other}::")),
-                "{module} needs {other}, which the copy has not"
-            );
-        }
+        assert!(TESTS.contains(&&*room), "{room}::{module} is not copied");
+        let own = files(&format!("tests/{room}/{module}.rs"), "");
+        let text = own.first().map_or("", |(_, text)| text);
         if modules.entry(room.clone()).or_default().insert(module) {
             for other in TESTS {
                 let path = format!("crate::{other}::");
-                let used = text.split(&path).skip(1).map(name);
-                wanted.extend(used.map(|module| (other.to_owned(), module)));
+                let used = text.split(&path).skip(1);
+                wanted.extend(used.map(|rest| (other.to_owned(), name(rest))));
             }
-            let used = text.split("use super::").skip(1).map(name);
-            wanted.extend(used.map(|module| (room.clone(), module)));
+            let used = text.split("use super::").skip(1);
+            wanted.extend(used.map(|rest| (room.clone(), name(rest))));
         }
     }
     modules
 }
 
-/// A list of modules without those that are not wanted.
-fn list_of(room: &str, wanted: &BTreeSet<String>) -> String {
-    let path = root().join("tests").join(room).join("mod.rs");
-    let text = fs::read_to_string(path).expect(room);
-    let is_wanted = |line: &&str| {
-        let module = line
-            .strip_prefix("pub ")
-            .unwrap_or(line)
-            .strip_prefix("mod ");
-        let module = module.and_then(|rest| rest.strip_suffix(';'));
-        module.is_none_or(|module| wanted.contains(module))
-    };
-    text.lines()
-        .filter(is_wanted)
-        .map(|line| format!("{line}\n"))
-        .collect()
-}
-
 /// The copy: the library with its wrong forms, and of the tests the specification.
 fn copy(forms: &[Form], folder: &Path) {
-    let sources = sources(forms).unwrap();
-    let mut manifest: Table = fs::read_to_string(root().join("Cargo.toml"))
-        .unwrap()
-        .parse()
-        .unwrap();
+    let mut changed = sources(forms).unwrap();
+    let mut manifest: Table = file("Cargo.toml").parse().unwrap();
     for part in ["bin", "bench", "example"] {
         manifest.remove(part);
     }
     // Of another version, so that cargo keeps what it builds of the two apart.
     let package = manifest["package"].as_table_mut().unwrap();
-    let version = package.insert("version".to_owned(), VERSION.into());
-    let version = version.unwrap().as_str().unwrap().to_owned();
-    let lock = fs::read_to_string(root().join("Cargo.lock")).unwrap();
-    let own = |version: &str| {
-        format!(
-            "name = \"{}\"\nversion = \"{version}\"\n",
-            env!("CARGO_PKG_NAME")
-        )
-    };
-    assert_eq!(lock.matches(&own(&version)).count(), 1);
-    let lock = lock.replace(&own(&version), &own(VERSION));
     for key in ["autobins", "autobenches", "autoexamples"] {
         package.insert(key.to_owned(), false.into());
     }
-    write(&folder.join("Cargo.toml"), manifest.to_string().as_bytes());
-    let lists = modules(forms);
-    let rooms: String = lists.keys().map(|room| format!("mod {room};\n")).collect();
-    let main = format!(
-        "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\n{rooms}use common::prelude;\nuse common::presentation::paper;\n"
-    );
-    let mut changed = BTreeMap::from([
-        (PathBuf::from("tests/main.rs"), main),
-        (PathBuf::from("src/wrong_form.rs"), SWITCH_SOURCE.to_owned()),
-        (PathBuf::from("Cargo.lock"), lock),
+    package.insert("version".to_owned(), "0.0.0".into());
+    let own = |version: &str| format!("name = \"corfem\"\nversion = \"{version}\"\n");
+    let lock = file("Cargo.lock").replace(&own(env!("CARGO_PKG_VERSION")), &own("0.0.0"));
+    let mut main = "#![allow(warnings, reason = \"a copy\")]\n#[macro_use]\nmod common;\nmod equations;\nuse common::prelude;\nuse common::presentation::paper;\n".to_owned();
+    for (room, wanted) in modules(forms) {
+        main += &format!("mod {room};\n");
+        let list = format!("tests/{room}/mod.rs");
+        let mut lines = file(&list).lines().collect_vec();
+        lines.retain(|line| {
+            let module = line.trim_start_matches("pub ").strip_prefix("mod ");
+            module.is_none_or(|module| wanted.contains(module.trim_end_matches(';')))
+        });
+        changed.insert(list, lines.join("\n"));
+    }
+    let library = format!("{}\nmod wrong_form;\n", file("src/lib.rs"));
+    changed.extend([
+        ("Cargo.toml".to_owned(), manifest.to_string()),
+        ("Cargo.lock".to_owned(), lock),
+        ("tests/main.rs".to_owned(), main),
+        ("src/lib.rs".to_owned(), library),
+        ("src/wrong_form.rs".to_owned(), SWITCH_SOURCE.to_owned()),
     ]);
-    for (room, modules) in &lists {
-        changed.insert(
-            format!("tests/{room}/mod.rs").into(),
-            list_of(room, modules),
-        );
-    }
-    let library = fs::read_to_string(root().join("src/lib.rs")).unwrap();
-    changed.insert("src/lib.rs".into(), format!("{library}\nmod wrong_form;\n"));
-    changed.extend(sources);
-    for (path, text) in &changed {
-        write(&folder.join(path), text.as_bytes());
-    }
-    let mut files = vec![root().join("README.md")];
-    let tests = ["common", "equations", "jobs"].into_iter().chain(TESTS);
-    let tests = tests.map(|room| format!("tests/{room}"));
-    for part in ["src", "golden", "paper", "benches/wing"]
-        .map(str::to_owned)
-        .into_iter()
-        .chain(tests)
-    {
-        files.extend(files_below(&root().join(part)));
-    }
     // Failures that properties of an earlier run have kept are those of its wrong forms, and a file that is gone would be a second one of
     // its module.
-    for part in ["src", "tests"].map(|part| folder.join(part)) {
-        for file in part
-            .is_dir()
-            .then(|| files_below(&part))
-            .into_iter()
-            .flatten()
-        {
-            let path = file.strip_prefix(folder).unwrap();
-            let is_gone = !changed.contains_key(path) && !root().join(path).exists();
-            if is_gone
-                || path
-                    .extension()
-                    .is_some_and(|end| end == "proptest-regressions")
-            {
-                fs::remove_file(&file).unwrap();
+    let parts = ["src", "tests"].map(|part| folder.join(part));
+    for part in parts.iter().filter(|part| part.is_dir()) {
+        for path in files_below(part) {
+            let name = path.strip_prefix(folder).unwrap().to_string_lossy();
+            let is_there = changed.contains_key(&*name) || in_root(&*name).exists();
+            if !is_there || name.ends_with("proptest-regressions") {
+                fs::remove_file(&path).unwrap();
             }
         }
     }
-    for file in files {
-        let path = file.strip_prefix(root()).unwrap();
-        if !changed.contains_key(path) {
-            write(&folder.join(path), &fs::read(&file).unwrap());
+    for (name, text) in &changed {
+        write(&folder.join(name), text.as_bytes());
+    }
+    let rooms = ["common", "equations", "jobs"].into_iter().chain(TESTS);
+    let rooms = rooms.map(|room| format!("tests/{room}"));
+    let parts = ["src", "golden", "paper", "benches/wing"].map(str::to_owned);
+    let copied = parts
+        .into_iter()
+        .chain(rooms)
+        .flat_map(|part| files_below(&in_root(part)));
+    for path in copied.chain([in_root("README.md")]) {
+        let name = path.strip_prefix(in_root("")).unwrap();
+        if !changed.contains_key(&*name.to_string_lossy()) {
+            write(&folder.join(name), &fs::read(&path).unwrap());
         }
     }
 }
 
 /// Builds the tests of the copy with what this program was built with, and returns their program.
 fn build(folder: &Path, target: &Path) -> PathBuf {
-    let built = Command::new(env!("CARGO"))
-        .args([
-            "test",
-            "--no-run",
-            "--locked",
-            "--offline",
-            "--test",
-            "specification",
-        ])
-        .args(["--message-format", "json"])
-        .current_dir(folder)
-        .env("CARGO_TARGET_DIR", target)
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&built.stdout);
-    let messages = said
-        .lines()
-        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
+    let arguments = "test --no-run --locked --offline --test specification --message-format json";
+    let mut command = Command::new(env!("CARGO"));
+    command.args(arguments.split(' ')).current_dir(folder);
+    let built = command.env("CARGO_TARGET_DIR", target).output().unwrap();
     let (mut program, mut errors) = (None, String::new());
-    for message in messages {
+    for line in String::from_utf8_lossy(&built.stdout).lines() {
+        let message: serde_json::Value = serde_json::from_str(line).unwrap_or_default();
         if message["target"]["name"] == "specification" && message["executable"].is_string() {
             program = message["executable"].as_str().map(PathBuf::from);
         }
@@ -479,11 +324,8 @@ fn build(folder: &Path, target: &Path) -> PathBuf {
             errors += message["message"]["rendered"].as_str().unwrap_or_default();
         }
     }
-    assert!(
-        built.status.success(),
-        "the copy does not build:\n{errors}{}",
-        String::from_utf8_lossy(&built.stderr)
-    );
+    let said = String::from_utf8_lossy(&built.stderr);
+    assert!(built.status.success(), "no copy:\n{errors}{said}");
     program.unwrap()
 }
 

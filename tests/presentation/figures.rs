@@ -1,8 +1,7 @@
-//! Every figure of the report, drawn once for all tests.
+//! Figures of the report, against those that are stored, one of every kind.
 
 use crate::paper::figures::{Figure, case_figures};
 use crate::prelude::*;
-use corfem::torque_box::fewer_modes::FewerModesRun;
 
 /// The four cases, run once for all tests of figures.
 pub fn results() -> &'static [CaseResult] {
@@ -10,14 +9,22 @@ pub fn results() -> &'static [CaseResult] {
     RESULTS.get_or_init(|| CASES.map(|number| case_run(&case_of(number))).into())
 }
 
-/// The runs with fewer modes, run once.
-pub fn fewer_modes_runs() -> &'static [FewerModesRun] {
-    static RUNS: OnceLock<Vec<FewerModesRun>> = OnceLock::new();
-    RUNS.get_or_init(|| published_runs(&case_of(PUBLISHED_CASE)).unwrap())
-}
-
 /// Every figure of the report, drawn once.
 pub fn figures() -> &'static [Figure] {
     static FIGURES: OnceLock<Vec<Figure>> = OnceLock::new();
     FIGURES.get_or_init(|| case_figures(results()).unwrap())
+}
+
+#[test]
+fn stored_figures_are_what_the_command_writes() {
+    let stored = fs::read_dir(in_root("golden/figures")).unwrap();
+    let stored = stored.map(|entry| entry.unwrap().path()).collect_vec();
+    assert_eq!(stored.len(), 6);
+    for path in stored {
+        let name = path.file_stem().and_then(|name| name.to_str()).unwrap();
+        let drawn = figures().iter().find(|figure| figure.name == name).unwrap();
+        let stored = fs::read_to_string(&path).unwrap();
+        let is_same = Numbers::DRAWN.agree(&stored, &drawn.svg);
+        assert!(is_same, "{name} differs: write it again");
+    }
 }

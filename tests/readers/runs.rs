@@ -181,7 +181,8 @@ fn built() -> Vec<(String, Files)> {
             building_with(seed, |_| {}),
         );
     }
-    let edits: [(&str, fn(&mut TestData)); 6] = [
+    type Edit = fn(&mut TestData);
+    let edits: [(&str, Edit); 6] = [
         ("reversed", |data| data.shapes.row_mut(2).neg_mut()),
         ("exchanged", |data| data.shapes.swap_rows(0, 3)),
         ("gain", |data| data.shapes.row_mut(3).scale_mut(3.0)),

@@ -41,6 +41,8 @@ fn lowest_eigenvalues_are_those_nastran_printed_in_1995() {
     let known = known_frequencies();
     assert_eq!(known.labels, ["1", "2", "3"]);
     let found = deck::modes(&wing(), usize::MAX).unwrap();
+    let elements = wing().structure().unwrap().elements().len();
+    assert_eq!(elements, 60 + 36 + 14 + 3);
     assert_eq!((found.dof.len(), found.modes.len()), (86, 86));
     for (mode, label) in known.labels.iter().enumerate() {
         let (square, hz) = (
@@ -59,24 +61,22 @@ fn lowest_eigenvalues_are_those_nastran_printed_in_1995() {
     }
 }
 
+/// Modes 8 and 9, the closest of the lowest twelve, are left out of the test: the wrong gages exchange them.
 #[test]
-fn wing_to_deck_to_wing_is_the_identity() {
-    let model = BulkData::from_structure(&wing().structure().unwrap());
-    let text = bulk_text(&model).unwrap();
-    for (card, count) in [
-        ("GRID*", 48),
-        ("CROD", 60),
-        ("CSHEAR", 36),
-        ("CQDMEM", 14),
-        ("CTRMEM", 3),
-        ("PTRMEM", 3),
-        ("MAT1", 2),
-    ] {
-        let lines = text.lines();
-        let cards = lines.filter(|line| line.split_whitespace().next() == Some(card));
-        assert_eq!(cards.count(), count, "{card}");
-    }
-    let read = deck::read("wing", text.as_bytes(), &[]).unwrap();
-    assert_eq!(read.model, model);
-    assert!(read.unread.is_empty());
+fn modes_left_out_are_close_and_exchanged_by_the_wrong_gages() {
+    let whole = deck::modes(&wing(), usize::MAX).unwrap();
+    let hertz = whole.modes.frequencies_hz();
+    let separation = |mode: usize| hertz[mode] / hertz[mode - 1] - 1.0;
+    assert_eq!(format!("{:.4}", separation(8)), "0.0160");
+    assert!((1..12).all(|mode| mode == 8 || separation(mode) > 0.06));
+    let model = first_model();
+    let right = GROUPS.iter().map(|group| 1.0 / group.first_over_true);
+    let [first, right] = [vec![1.0; GROUPS.len()], right.collect_vec()]
+        .map(|factors| model.matrices(&factors).unwrap());
+    let modes = solve(&first.stiffness, &first.mass, 19).unwrap();
+    let truth = solve(&right.stiffness, &right.mass, 12).unwrap();
+    let cross = cross_orthogonality(&modes, &truth, &first.mass).unwrap();
+    let mut expected = (0..12).collect_vec();
+    expected.swap(7, 8);
+    assert_eq!(pair_modes(&cross).unwrap().analysis_mode, expected);
 }

@@ -1,10 +1,6 @@
 //! What the studies must show for the documents to say so.
 
 pub mod delta_wing_answers;
-pub mod delta_wing_correlation;
-pub mod delta_wing_scenario;
-pub mod detection;
-pub mod eigensolutions;
 pub mod linearization;
 pub mod matrix_comparison;
 pub mod matrix_correction;

@@ -127,31 +127,6 @@ properties! {
     }
 }
 
-/// The modes of the seeds, and that the box is held.
-#[test]
-fn test_modes_are_noisy_orthogonal_and_screened_ones_of_a_held_box() {
-    let (exact, mass) = (exact(), case().reconstruction.mass());
-    assert_eq!(test_modes(0)[0], exact);
-    let raw = with_noise(&exact, Noise::USUAL, 7).unwrap();
-    let screened = examine(&raw, &mass, Supports::Held, &MovementLimits::default()).unwrap();
-    let orthogonal = orthogonalize(&raw, &mass).unwrap().modes;
-    assert_eq!(test_modes(7), [raw, orthogonal, screened.modes]);
-    let points = dynamic_points(&case().reconstruction).unwrap();
-    let direction = Vector3::z_axis();
-    let points = points.into_iter().map(|position| MeasuringPoint {
-        position,
-        direction,
-    });
-    // Plunge, roll and pitch.
-    let vectors = rigid_body_vectors(&points.collect_vec()).select_columns(&[2, 3, 4]);
-    let first = case()
-        .model()
-        .and_then(|model| Ok(model.matrices(&[1.0; 15])?))
-        .unwrap();
-    let refused = balance(&exact, &first.stiffness, &first.mass, &vectors);
-    assert!(said(refused).contains("supports balance the forces"));
-}
-
 #[test]
 fn without_noise_it_is_the_case_itself_by_the_librarys_own_rule() {
     let mut case = case();

@@ -40,7 +40,9 @@ pub const MATRICES: &[Entry] = &[
             .map(|found| found.shapes().clone().numbers())
     }),
     ("modes::apply_sign_rule", |d| {
-        unseen(apply_sign_rule(&mut d.symmetric(3)))
+        let mut shapes = d.symmetric(3);
+        apply_sign_rule(&mut shapes);
+        unseen(shapes)
     }),
     ("sorting::cross_orthogonality", |d| {
         let size = d.size();

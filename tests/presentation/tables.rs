@@ -1,5 +1,6 @@
-//! Tables as text, Markdown and CSV: what a terminal has room for, and what another program reads.
+//! Tables as text, Markdown and CSV: what a terminal has room for, and what another program reads; and the paper's tables as printed.
 
+use crate::paper::tables::published::published_table;
 use crate::prelude::*;
 use corfem::present::render::{WIDTH, markdown};
 use corfem::present::table::counted;
@@ -31,15 +32,15 @@ fn table() -> impl Strategy<Value = Table> {
 
 /// A table with these words in every place where a user's names come.
 fn named(words: &str) -> Table {
-    Table::new("names", words, "Row")
-        .labels([words])
-        .column(words, "", [Cell::text(words)])
-        .notes([words.to_owned()])
+    let table = Table::new("names", words, "Row").labels([words]);
+    let table = table.column(words, "", [Cell::text(words)]);
+    table.notes([words.to_owned()])
 }
 
-/// A terminal would obey an escape sequence, and a line end would leave its row.
+/// A terminal would obey an escape sequence, a line end would leave its row, a bar would begin a cell of Markdown, and a spreadsheet would
+/// compute a formula. Numbers are numbers, with a sign too.
 #[test]
-fn control_characters_of_names_are_shown_in_every_format() {
+fn odd_names_are_words_in_every_format() {
     let tables = [named("a\u{1b}[2Jb\0c\nd\te")];
     for shown in [text(&tables), markdown(&tables), csv(&tables)] {
         assert!(
@@ -48,29 +49,12 @@ fn control_characters_of_names_are_shown_in_every_format() {
         );
         assert!(shown.contains("a\\u{1b}[2Jb\\u{0}c\\nd\\te"), "{shown}");
     }
-}
-
-#[test]
-fn a_bar_in_a_name_does_not_begin_a_cell_of_markdown() {
-    let shown = markdown(&[named("story|3")]);
-    let row = shown
-        .lines()
-        .rfind(|line| line.starts_with("| story"))
-        .unwrap();
-    assert_eq!(row, "| story\\|3 | story\\|3 |");
-}
-
-/// A spreadsheet would compute it. Numbers are numbers, with a sign too.
-#[test]
-fn a_name_that_is_a_formula_is_words_in_csv() {
+    assert!(markdown(&[named("story|3")]).contains("\n| story\\|3 | story\\|3 |\n"));
     for formula in ["=cmd|' /C calc'!A0", "+A1", "-A1", "@SUM(A1,2)"] {
         let shown = csv(&[named(formula)]);
-        let row = shown.lines().nth(1).unwrap();
-        assert!(row.contains(&format!("'{formula}")), "{row}");
-        assert!(
-            !row.contains(&format!(",{formula}")) && !row.contains(&format!(",\"{formula}")),
-            "{row}"
-        );
+        assert!(shown.contains(&format!("'{formula}")), "{shown}");
+        let is_bare = [",", ",\""].map(|before| shown.contains(&format!("{before}{formula}")));
+        assert_eq!(is_bare, [false; 2], "{shown}");
     }
     for number in ["-1.5", "+2", "-3e-4"] {
         assert!(csv(&[named(number)]).contains(&format!(",{number},")));
@@ -91,11 +75,9 @@ properties! {
         let words = text.split_whitespace().collect_vec();
         let note = table.notes[0].split_whitespace().collect_vec();
         prop_assert!(words.ends_with(&note));
-        for row in &table.rows {
-            for cell in &row.cells {
-                for written in [Some(cell.computed()), cell.published()].into_iter().flatten() {
-                    prop_assert!(written.is_empty() || words.contains(&written.as_str()));
-                }
+        for cell in table.rows.iter().flat_map(|row| &row.cells) {
+            for written in [Some(cell.computed()), cell.published()].into_iter().flatten() {
+                prop_assert!(written.is_empty() || words.contains(&written.as_str()));
             }
         }
     }
@@ -120,21 +102,15 @@ properties! {
     }
 }
 
-fn small() -> Table {
-    let beside = Cell::beside(-4.0, Digits::Fixed(1), Some(-4.5));
-    Table::new("t", "A title", "Mode")
-        .labels(["1", "2, \"both\""])
-        .column(
-            "Initial",
-            "Hz",
-            [Cell::number(10.5, Digits::Significant(4))],
-        )
-        .column("Initial error", "%", [beside, Cell::text("words")])
-        .notes(["A note."])
-}
-
+/// A published number stands below its own in text, in parentheses in Markdown; CSV quotes what would end a field.
 #[test]
-fn a_published_number_stands_below_its_own() {
+fn a_small_table_is_written_so_in_every_format() {
+    let beside = Cell::beside(-4.0, Digits::Fixed(1), Some(-4.5));
+    let first = [Cell::number(10.5, Digits::Significant(4))];
+    let table = Table::new("t", "A title", "Mode").labels(["1", "2, \"both\""]);
+    let table = table.column("Initial", "Hz", first);
+    let table = table.column("Initial error", "%", [beside, Cell::text("words")]);
+    let table = [table.notes(["A note."])];
     let expected = "\
 Computed values; the paper's are in the rows marked \"published\".
 
@@ -151,22 +127,7 @@ Mode              Hz        %
 
 A note.
 ";
-    assert_eq!(text(&[small()]), expected);
-}
-
-#[test]
-fn a_table_as_wide_as_the_page_stays_whole_and_a_wider_one_goes_on_below() {
-    let table = |wide: usize| {
-        let cell = |wide: usize| [Cell::text("x".repeat(wide))];
-        let table = Table::new("t", "A title", "Mode").labels(["label of 15 ..."]);
-        text(&[table.column("a", "", cell(40)).column("b", "", cell(wide))])
-    };
-    assert_eq!(table(WIDTH - 15 - 2 - 40 - 2).matches("Mode").count(), 1);
-    assert_eq!(table(WIDTH - 15 - 2 - 40 - 1).matches("Mode").count(), 2);
-}
-
-#[test]
-fn markdown_has_it_in_parentheses() {
+    assert_eq!(text(&table), expected);
     let expected = "\
 Computed values; the paper's follow in parentheses.
 
@@ -179,18 +140,26 @@ Computed values; the paper's follow in parentheses.
 
 A note.
 ";
-    assert_eq!(markdown(&[small()]), expected);
-}
-
-#[test]
-fn csv_quotes_what_would_end_a_field() {
+    assert_eq!(markdown(&table), expected);
     let expected = "\
 table,row,column,unit,computed,published
 t,1,Initial,Hz,10.5,
 t,1,Initial error,%,-4,-4.5
 t,\"2, \"\"both\"\"\",Initial error,%,words,
 ";
-    assert_eq!(csv(&[small()]), expected);
+    assert_eq!(csv(&table), expected);
+}
+
+#[test]
+fn a_table_as_wide_as_the_page_stays_whole_and_a_wider_one_goes_on_below() {
+    let parts = |wide: usize| {
+        let cell = |wide: usize| [Cell::text("x".repeat(wide))];
+        let table = Table::new("t", "A title", "Mode").labels(["label of 15 ..."]);
+        let table = table.column("a", "", cell(40)).column("b", "", cell(wide));
+        text(&[table]).matches("Mode").count()
+    };
+    let fits = WIDTH - 15 - 2 - 40 - 2;
+    assert_eq!([fits, fits + 1].map(parts), [1, 2]);
 }
 
 #[test]
@@ -209,6 +178,26 @@ fn numbers_are_written_with_their_digits_and_never_as_minus_zero() {
     ] {
         assert_eq!(digits.write(value), written);
     }
-    assert_eq!(counted(1, "pass", "passes"), "1 pass");
-    assert_eq!(counted(0, "pass", "passes"), "0 passes");
+    let passes = [0, 1].map(|count| counted(count, "pass", "passes"));
+    assert_eq!(passes, ["0 passes", "1 pass"]);
+}
+
+/// Every printed cell of the paper's tables, those without a published number as blanks.
+#[test]
+fn every_printed_cell_is_one_line_as_printed() {
+    for number in 2..=13 {
+        let file = in_root(format!("paper/tables/table_{number}.csv"));
+        let file = fs::read_to_string(file).unwrap();
+        let rows = file.lines().filter(|line| !line.starts_with('#')).skip(1);
+        let cells = rows.flat_map(|row| row.split(',').skip(1));
+        let printed = cells.filter(|cell| !cell.is_empty()).collect_vec();
+        let table = published_table(number).unwrap();
+        let written = csv(from_ref(&table));
+        let written = written.lines().skip(1);
+        let written = written.map(|line| line.rsplit_once(',').unwrap().1);
+        assert_eq!(written.collect_vec(), printed, "Table {number}");
+        assert!(table.title.starts_with(&format!("Table {number}. ")));
+        let names: BTreeSet<_> = table.columns.iter().map(|own| &own.name).collect();
+        assert_eq!(names.len(), table.columns.len(), "Table {number}");
+    }
 }
