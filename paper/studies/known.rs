@@ -73,7 +73,7 @@ impl Weighed {
         let lumped = lumped_mass(self.structure());
         if lumped.amax() > 0.0 {
             let b = self.condense(factors)?.transformation;
-            found.mass = symmetric_part(&generalized_mass(&b, &DMatrix::from_diagonal(&lumped))?);
+            found.mass = dynamic_mass(&DMatrix::from_diagonal(&lumped), &b)?;
         }
         Ok(found)
     }

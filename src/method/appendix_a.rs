@@ -8,6 +8,7 @@ use super::{
         Matrix, check_length, check_matrix, check_shape, cholesky, congruence, round_off,
         symmetric_part,
     },
+    modes::generalized_mass,
     structure::Structure,
 };
 
@@ -143,9 +144,10 @@ pub fn condense(stiffness: &Matrix, load_distribution: &Matrix) -> Result<Conden
     let scaled = lower.solve_lower_triangular_unchecked(&Matrix::from_diagonal(&scale));
     let is_held = 1.0 / scaled.norm_squared() > round_off(scale.len());
     if !is_held {
-        let row = lower.diagonal().component_div(&scale).imin();
-        let what = "structural stiffness";
-        return Err(Error::NotPositiveDefinite { what, row });
+        return Err(Error::NotPositiveDefinite {
+            what: "structural stiffness",
+            row: lower.diagonal().component_div(&scale).imin(),
+        });
     }
     // With K_S = L Lᵗ and W = L⁻¹ T: Tᵗ K_S⁻¹ T = Wᵗ W, and K_S⁻¹ T = L⁻ᵗ W.
     let half = lower.solve_lower_triangular_unchecked(load_distribution);
@@ -160,6 +162,32 @@ pub fn condense(stiffness: &Matrix, load_distribution: &Matrix) -> Result<Conden
         transformation: deflections * &stiffness,
         stiffness,
     })
+}
+
+/// Dynamic mass of a structural mass $M_S$ (lbf·s²/in, free SDOF × free SDOF) and the transformation $B^t$ of [`condense`] (free SDOF × d),
+/// lbf·s²/in (d × d).
+///
+/// $$ M = B M_S B^t $$
+///
+/// It has the kinetic energy of the structural mass in every motion $q_S = B^t q_D$. Source: the paper's (A.9).
+///
+/// # Errors
+/// A mass that does not fit the transformation, and a product that is not finite.
+///
+/// # Example
+///
+/// ```rust
+/// use corfem::method::appendix_a::dynamic_mass;
+/// use nalgebra::dmatrix;
+///
+/// // Masses of 9 in the middle and 1 at the tip, where the middle goes a third as far: 9/3² + 1.
+/// let mass = dynamic_mass(&dmatrix![9.0, 0.0; 0.0, 1.0], &dmatrix![1.0 / 3.0; 1.0])?;
+/// assert!((mass[0] - 2.0).abs() < 1e-14);
+/// # Ok::<(), corfem::method::error::Error>(())
+/// ```
+pub fn dynamic_mass(structural_mass: &Matrix, transformation: &Matrix) -> Result<Matrix> {
+    let mass = generalized_mass(transformation, structural_mass)?;
+    Ok(symmetric_part(&mass))
 }
 
 /// Share of an element in the stiffness for shapes at the structural DOF, $t_e V_e^t K_e V_e$ (A.9), where $V_e$ are the rows of

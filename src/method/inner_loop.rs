@@ -220,13 +220,12 @@ fn lowering_step(
     for halvings in 0..=settings.halvings {
         let fraction = 0.5_f64.powi(halvings as i32);
         let limited = |e: usize| {
-            let (c, range) = (unlimited_factors[e], settings.factor_range);
             limited_factor(
-                c,
+                unlimited_factors[e],
                 fraction,
                 gage_factors[e],
                 earlier[e],
-                range,
+                settings.factor_range,
                 gage_bounds[e],
             )
         };

@@ -188,8 +188,12 @@ impl FiniteElementModel {
     /// Another number of factors, and a factor or size that is not positive and finite.
     pub fn sizes(&self, factors: &[f64]) -> Result<Vec<f64>> {
         check_length("parameter factors", factors.len(), self.parameters.len())?;
-        let elements = self.structure.elements().iter();
-        let mut sizes: Vec<f64> = elements.map(|element| element.size).collect();
+        let mut sizes: Vec<f64> = self
+            .structure
+            .elements()
+            .iter()
+            .map(|element| element.size)
+            .collect();
         for ((parameter, rows), &factor) in self.parameters.iter().zip(&self.rows).zip(factors) {
             let owner = || format!("parameter {}", parameter.name);
             positive("factor", owner, factor)?;
@@ -264,8 +268,9 @@ impl FiniteElementModel {
     /// Every error of [`Self::condense`].
     pub fn matrices(&self, factors: &[f64]) -> Result<DynamicModel> {
         let (sizes, condensed) = (self.sizes(factors)?, self.condense(factors)?);
-        let (elements, b) = (&self.element_matrices, &condensed.transformation);
-        let share = |&row: &usize| generalized_stiffness(&elements[row], sizes[row], b);
+        let b = &condensed.transformation;
+        let share =
+            |&row: &usize| generalized_stiffness(&self.element_matrices[row], sizes[row], b);
         let sum = |rows: &Vec<usize>| rows.iter().map(share).sum();
         Ok(DynamicModel {
             shares: self.rows.iter().map(sum).collect(),
@@ -391,13 +396,12 @@ impl Analysis for ModalModel {
         }
         let (modes, p) = changed_modes(before, &beta)?;
         let pairing = pair_modes(&p.tr_mul(&self.cross))?;
-        let errors = errors(&modes, &pairing, &self.test)?;
         Ok(State {
+            errors: errors(&modes, &pairing, &self.test)?,
             share_factors: share_factors.to_vec(),
             modes,
             generalized_shapes: p,
             pairing,
-            errors,
         })
     }
 

@@ -128,8 +128,7 @@ impl Modes {
 }
 
 /// Generalized mass $m_1 = V^t M V$ (B.6), n × n, of shapes in columns (d × n) of any scale. Its off-diagonal entries
-/// are the integrals of (B.5), which vanish for orthogonal modes. Of a structural mass $M_S$ and the $B^t$ of
-/// [`condense`](super::appendix_a::condense) it is the dynamic mass $B M_S B^t$ (A.9).
+/// are the integrals of (B.5), which vanish for orthogonal modes.
 ///
 /// # Errors
 /// A mass that does not fit the shapes, and a product that is not finite.
@@ -146,7 +145,7 @@ impl Modes {
 /// # Ok::<(), corfem::method::error::Error>(())
 /// ```
 pub fn generalized_mass(shapes: &Matrix, mass: &Matrix) -> Result<Matrix> {
-    check_shape("dynamic mass", mass, shapes.nrows(), shapes.nrows())?;
+    check_shape("mass", mass, shapes.nrows(), shapes.nrows())?;
     let overlaps = congruence(mass, shapes);
     check_finite("generalized mass", &overlaps).map(|()| overlaps)
 }

@@ -191,13 +191,12 @@ impl Structure {
             check_corners(element.label, element.kind, &own)?;
             corners.push(own);
         }
-        let row_of = free.iter().copied().zip(0..).collect();
         Ok(Self {
+            row_of: free.iter().copied().zip(0..).collect(),
             grids,
             elements,
             corners,
             free,
-            row_of,
         })
     }
 
@@ -239,16 +238,26 @@ pub fn check_corners(label: usize, kind: ElementKind, corners: &[Point]) -> Resu
     let owner = || format!("element {label}");
     if kind == ElementKind::Rod {
         let ratio = side(0, 1).norm() / (corners[0].norm() + corners[1].norm());
-        let is_met = ratio > SMALLEST_LENGTH_RATIO;
-        return require(is_met, "relative length", owner, ratio, "above 1e-12");
+        return require(
+            ratio > SMALLEST_LENGTH_RATIO,
+            "relative length",
+            owner,
+            ratio,
+            "above 1e-12",
+        );
     }
     // The diagonals of a panel, or two sides of a triangle, whose third is side 2-3.
     let (d13, d24) = (side(0, 2), side(1, 3));
     let normal = d13.cross(&d24);
     let longest = d13.norm().max(d24.norm()).max(side(1, 2).norm());
     let ratio = 0.5 * normal.norm() / longest.powi(2);
-    let is_met = ratio > SMALLEST_AREA_RATIO;
-    require(is_met, "relative area", owner, ratio, "above 1e-10")?;
+    require(
+        ratio > SMALLEST_AREA_RATIO,
+        "relative area",
+        owner,
+        ratio,
+        "above 1e-10",
+    )?;
     // Every angle of a triangle is less.
     (1..=count).try_for_each(|corner| {
         let turn = side(corner - 1, corner).cross(&side(corner - 1, corner + count - 2));

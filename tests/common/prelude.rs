@@ -100,7 +100,8 @@ pub use corfem::{
     method::{
         analysis::{Analysis, State},
         appendix_a::{
-            Condensed, ElementMatrix, assemble, condense, element_matrices, generalized_stiffness,
+            Condensed, ElementMatrix, assemble, condense, dynamic_mass, element_matrices,
+            generalized_stiffness,
         },
         appendix_b::{
             ANTISYMMETRIC, LARGEST_SUSPENSION_RATIO, MeasuringPoint, Movement, MovementLimits,

@@ -163,7 +163,7 @@ fn modes_that_are_none_are_refused_by_their_place() {
         ),
         (
             said(modes.scaled_with(&eye(3))),
-            "dynamic mass: 3 x 3 instead of 2 x 2",
+            "mass: 3 x 3 instead of 2 x 2",
         ),
     ] {
         assert_eq!(found, words);

@@ -125,7 +125,7 @@ fn bad_input_is_refused() {
             &[1.0, 2.0][..],
             eye(2),
             identity(3),
-            "dynamic mass: 3 x 3 instead of 2 x 2".into(),
+            "mass: 3 x 3 instead of 2 x 2".into(),
         ),
         (
             &[1.0, 2.0, 3.0][..],

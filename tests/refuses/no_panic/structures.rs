@@ -135,6 +135,10 @@ pub const STRUCTURES: &[Entry] = &[
             .map(Numbers::numbers)
             .concat())
     }),
+    ("appendix_a::dynamic_mass", |d| {
+        let size = d.size();
+        dynamic_mass(&d.symmetric(size), d.modes(size)?.shapes()).map(Numbers::numbers)
+    }),
     ("FiniteElementModel::new", |d| {
         let structure = d.structure()?;
         let load_distribution = d.load_distribution(structure.free_dof().len());
