@@ -701,7 +701,7 @@ def deletion():
     raw[[0, 2, 3, 4], [1, 1, 2, 1]] = 0.05, 0.1, 0.15, 0.3
     limits = dict(balance_limit=0.1, frequency_limit=0.02, shape_limit=0.1)
     given = dict(omega_squared=np.array([100.0, 225.0, 400.0, 900.0, 1600.0]), raw=raw, mass=np.diag([1.0, 1.0, 2.0, 1.0, 0.5])) | limits
-    sentence(["deletion"], "order of deletion", "examine", given, examined, {
+    sentence(["deletion", "order of deletion"], "order of deletion", "examine", given, examined, {
         "the mode deleted that moved most": dict(suspect=lambda overlap, excess: (excess, overlap)),
         "the mode with the least overlap deleted": dict(suspect=lambda overlap, excess: (-overlap, excess)),
         "all modes beyond a limit deleted at once": dict(all_at_once=True)})

@@ -300,7 +300,7 @@ pub struct Examination {
 /// Balances the test modes, orthogonalizes them, and deletes those that do not fit.
 ///
 /// A mode that balancing changes by more than its limit is deleted at once. Orthogonalization moves good modes with a
-/// wrong one that overlaps them, and may move them farther. So while any mode moves past a limit, the one is deleted
+/// wrong one that overlaps them, and may move them farther. So while any mode moves past a limit, the one is deleted (ours)
 /// that overlaps most with all others together, $\max_i \sum_{j \ne i} m_{1,ij}^2$ (on a tie the one that moved
 /// farthest, the higher of two), and the rest are orthogonalized anew from their balanced shapes. This finds a single
 /// wrong mode anywhere in the spectrum; several that are mixed with each other are not always told from good ones.

@@ -121,7 +121,7 @@ pub fn unlimited_factor(
 
 /// New total factor of a parameter after a `fraction` of the limited step.
 ///
-/// The unlimited factor $c$ is first brought within the bounds of one iteration, then the step $c - 1$ is shortened, so that a
+/// Ours: the unlimited factor $c$ is first brought within the bounds of one iteration, then the step $c - 1$ is shortened, so that a
 /// halving shortens the step that is taken. `gage_factor` is the factor so far and `earlier` what it multiplies (the product of earlier
 /// passes), so that the parameter stands at `earlier·gage_factor` of its first value; `gage_bounds` bounds that product.
 pub fn limited_factor(
