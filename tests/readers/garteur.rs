@@ -172,7 +172,9 @@ fn antisymmetric_bending_modes_are_too_stiff_in_the_first_act() {
     let errors = errors(&RESULT, &RESULT.found.first);
     let [antisymmetric, others] = [[1, 4, 6].as_slice(), &[0, 2, 3, 5, 7]];
     assert!(
-        antisymmetric.iter().all(|&mode| errors[mode] > 8.0),
+        antisymmetric
+            .iter()
+            .all(|&mode| (8.0..17.5).contains(&errors[mode])),
         "{errors:?}"
     );
     assert!(

@@ -62,7 +62,7 @@ fn tables_say_the_gages_that_the_text_of_cases_2_and_3_lost() {
 
 #[test]
 fn printed_frequencies_of_table_9_are_not_exact_solutions_of_table_11() {
-    // Nine analysis modes, five test modes: exact solutions at the printed gages lie 2 to 4 % above the printed ones.
+    // Nine analysis modes, five test modes: exact solutions at the printed gages lie 2.0 to 4.3 % above the printed ones.
     let (frequencies, gages) = (
         PublishedTable::number(9).unwrap(),
         PublishedTable::number(11).unwrap(),
@@ -78,7 +78,11 @@ fn printed_frequencies_of_table_9_are_not_exact_solutions_of_table_11() {
             .required(&(mode + 1).to_string(), "fem_9_hz")
             .unwrap();
         let above = 100.0 * (computed / published - 1.0);
-        assert!((1.5..4.5).contains(&above), "mode {}: {above} %", mode + 1);
+        assert!(
+            (1.95..4.35).contains(&above),
+            "mode {}: {above} %",
+            mode + 1
+        );
     }
     // And Table 11's covers are thicker on average than Table 6's after pass 1, whose frequencies are higher.
     let (table_5, table_6) = (
