@@ -260,9 +260,6 @@ pub const LEAST_REACHED: f64 = 0.2;
 pub const SECOND_ORDER_CHANGE: f64 = 0.02;
 /// Where Recursive 1 is far from its start and has settled to a millionth of its roots, which err by the square of what shapes do.
 pub const FAR_RECURSION: f64 = 1e-3;
-/// Factors where the loops lead, relative, before and after they are written anew, and error sums there: round-off of 1e-13 in masses or
-/// springs moves them by up to 1e-10.
-pub const SAME_LOOPS: f64 = 1e-9;
 /// Slopes of residuals relative to the largest, beside central differences of exact analyses: a thousandth of what the modes left out
 /// add is allowed, and shapes are found to 1e-8, over a step of 1e-4.
 pub const EXACT_SLOPES: f64 = 2e-3;

@@ -1,7 +1,7 @@
 //! What sensors do not see does not exist: parts of the model that no sensor is on change nothing but what is said of them.
 
 use super::job_lists::named;
-use crate::common::jobs::{add_parameter, matrix_job, measured_at};
+use crate::common::jobs::{add_parameter, matrix_job, measured_at, of_whole};
 use crate::prelude::*;
 use corfem::job::LoadedJob;
 
@@ -223,4 +223,22 @@ fn corrected_matrices_read_back_as_those_at_the_factors() {
             }
         }
     }
+}
+
+/// The middle of three masses between two walls stands still in their second mode, of ω² = 2 k/m.
+#[test]
+fn a_mode_that_no_sensor_sees_is_named_by_its_frequency_in_hertz() {
+    let stiffness = springs(
+        3,
+        &[
+            (0, None, 1e6),
+            (1, Some(0), 1e6),
+            (2, Some(1), 1e6),
+            (2, None, 1e6),
+        ],
+    );
+    let parts = vec![whole_parameter(0, WholeShare::Stiffness(stiffness.clone()))];
+    let model = WholeModel::new(stiffness, masses(&[1.0; 3]), parts).unwrap();
+    let job = prepared(&of_whole(&model, &[1.1], &[1], 1, DEVIATIONS));
+    assert_eq!(about(&trust_in(&job), "unseen-modes"), ["225.0791"]);
 }

@@ -40,7 +40,6 @@ pub mod s2_inner_loop_far;
 pub mod s2_inner_loop_pairing;
 pub mod s2_inner_loop_recursion;
 pub mod s2_inner_loop_stops;
-pub mod s2_net;
 pub mod s2_outer_loop;
 pub mod s2_outer_loop_b;
 pub mod s2_outer_loop_best;

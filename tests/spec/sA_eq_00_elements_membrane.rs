@@ -146,3 +146,17 @@ fn stiffness_of_a_triangle_does_not_depend_on_its_size() {
         assert!(relative_distance(&scaled, &stiffness) <= ELEMENT_ROUND_OFF);
     }
 }
+
+/// A material may have another G than E/(2(1 + ν)). Half a square inch that is sheared by one holds G/4.
+#[test]
+fn a_sheared_triangle_has_the_shear_modulus_of_its_material() {
+    let material = Material {
+        shear_modulus: 3.0,
+        ..Material::isotropic(10.0, 0.25).unwrap()
+    };
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Vector3::from);
+    let sheared = Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    let motion = linear_motion(&corners, &sheared);
+    let held = energy(&triangle(&corners, &material), &motion);
+    assert_alike([held], [0.75], ROUND_OFF);
+}

@@ -83,3 +83,18 @@ fn evidence_is_what_the_objective_falls_by_at_the_factor_named() {
         }
     }
 }
+
+/// Factors are tried from a thousandth to a thousand; an end may ask for more.
+#[test]
+fn a_suspect_at_an_end_of_the_factors_tried_is_at_the_edge() {
+    let is_at_edge = |factor| {
+        let suspect = Suspect {
+            parameter: 0,
+            factor,
+            evidence: 1.0,
+        };
+        suspect.is_at_edge()
+    };
+    let edges = [1e-3, 1.1e-3, 900.0, 1e3].map(is_at_edge);
+    assert_eq!(edges, [true, false, false, true]);
+}
