@@ -108,6 +108,11 @@ fn sums_and_root_mean_squares_by_hand() {
     assert_within(errors.sum(), 0.9, ROUND_OFF);
     assert_within(errors.frequency_rms(), 0.1, ROUND_OFF);
     assert_within(errors.shape_rms(), 0.3, ROUND_OFF);
+    let of_one = Errors {
+        shape_count: 1,
+        ..errors
+    };
+    assert_within(of_one.shape_rms(), 0.6, ROUND_OFF);
 }
 
 #[test]

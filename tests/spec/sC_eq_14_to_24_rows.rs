@@ -239,6 +239,38 @@ fn every_rule_gains_its_orders() {
     }
 }
 
+/// The roots that print has in (C.24), beside the corrected ones, when every element of Case 2 changes by ten percent, up and down in turn.
+#[test]
+fn printed_indices_and_the_old_root_lose_the_second_order() {
+    let (first, test) = (
+        case_of(2).model().unwrap(),
+        case_of(2).test_modes().unwrap(),
+    );
+    let first = first.analyze(&[1.0; PANEL_COUNT], &test, None).unwrap();
+    let k = first.exact().modes.omega_squared();
+    let shares = first.shares().iter().zip([0.1, -0.1].into_iter().cycle());
+    let beta: DMatrix<f64> = shares.map(|(share, change)| change * share).sum();
+    let change = ModalChange::of_vibrations(k, beta, zero_square(k.len()));
+    let (rows, exact) = (rows(&change), eigensolution(&change).unwrap());
+    let first_order = rows.recursive_1(0).roots;
+    let shapes = rows.recursive_1(1).shapes;
+    let printed = rows.explicit(shapes.transpose()).roots;
+    let corrected = rows.explicit(shapes).roots;
+    let old = DVector::from_fn(k.len(), |i, _| {
+        let p = exact.shapes.column(i) / exact.shapes[(i, i)];
+        (1.0 - change.beta.row(i).tr_dot(&p) / rows.a[(i, i)]) / k[i]
+    });
+    for (roots, expected) in [
+        (printed, 6.7e-3),
+        (first_order, 3.4e-3),
+        (corrected, 5.2e-5),
+        (old, 8.7e-5),
+    ] {
+        let wrong = roots.component_div(&exact.roots).add_scalar(-1.0).amax();
+        assert_eq!(format!("{wrong:.1e}"), format!("{expected:.1e}"));
+    }
+}
+
 /// One mode has no others: every rule gives Rayleigh's quotient, (1 + 0.2)/(2 + 0.5), and the shape itself.
 #[test]
 fn one_mode_alone_is_exact() {
