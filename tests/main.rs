@@ -1,6 +1,7 @@
-//! The method's specification as one test program. `spec` follows the paper, and its names sort in the paper's order; `refuses` holds
-//! what is refused, `evidence` what the studies of `paper/studies` must show and the comparisons with other programs, `readers` a
-//! user's files (its lists `files/*.toml` first), `presentation` tables, figures and the program (by `program/transcripts`), `ledgers` the lists of documents held against the code.
+//! The method's specification as one test program. `contents` follows the paper, and its names sort first and in its order; `extensions` is
+//! what is not the paper. `refuses` holds what is refused, `evidence` what the studies of `paper/studies` must show and the comparisons with
+//! other programs, `readers` a user's files (its lists `files/*.toml` first), `presentation` tables, figures and the program (by
+//! `program/transcripts`), `ledgers` the lists of documents held against the code.
 
 #[macro_use]
 mod common;
@@ -9,7 +10,9 @@ mod ledgers;
 
 use common::presentation::paper;
 
-mod spec;
+mod contents;
+
+mod extensions;
 
 mod refuses;
 

@@ -62,7 +62,7 @@ pub fn every_equation_has_its_function_its_tests_and_a_wrong_form() -> Vec<Strin
         }
         let has_law = match entry.contains_key("number") {
             true => executed.contains(&&*test_of(owner)),
-            false => tests.iter().any(|test| test.starts_with("spec::s")),
+            false => tests.iter().any(|test| test.starts_with("contents::s")),
         };
         if !has_law || entry["wrong"].as_array().is_none_or(Vec::is_empty) {
             refuse("no law of its own, or no wrong form");

@@ -17,9 +17,9 @@ const CLAIMS: &str = "The paper finds|the shape that differs|box rods have|aper'
 /// The tests that run at least twenty other boxes.
 const OF_OTHER_BOXES: [&str; 4] = [
     "cargo bench --bench studies -- --check detection",
-    "spec::s4_readings::on_other_boxes_relative_is_compared_with_every_reading",
-    "spec::s4_readings::changes_add_on_thirty_other_boxes",
-    "spec::s4_covers::covers_of_a_bay_that_begin_alike_stay_alike_under_any_rule",
+    "contents::s4_readings::on_other_boxes_relative_is_compared_with_every_reading",
+    "contents::s4_readings::changes_add_on_thirty_other_boxes",
+    "contents::s4_covers::covers_of_a_bay_that_begin_alike_stay_alike_under_any_rule",
 ];
 
 /// What a number counts that says no quantity: parts of the paper, names and places.

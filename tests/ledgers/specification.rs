@@ -34,7 +34,7 @@ pub fn page() -> String {
             }
             let names = names
                 .iter()
-                .map(|name| format!("`{}`", name.trim_start_matches("spec::")));
+                .map(|name| format!("`{}`", name.trim_start_matches("contents::")));
             names.collect_vec().join(", ")
         };
         for (key, title) in [("print", "The paper prints"), ("scan", "The scan has")] {

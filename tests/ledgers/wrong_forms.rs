@@ -37,7 +37,7 @@ const ROOMS: [&str; 3] = ["weighted", "job", "files"];
 const LEAST_OF_ROOM: usize = 30;
 const LEAST: usize = 75;
 /// Rooms of tests that the copy may have.
-const TESTS: [&str; 3] = ["spec", "readers", "evidence"];
+const TESTS: [&str; 4] = ["contents", "extensions", "readers", "evidence"];
 
 /// A wrong form of an equation, a sentence or a law.
 struct Form {

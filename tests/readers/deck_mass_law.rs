@@ -1,7 +1,7 @@
 //! One law for gage and mass, for the model and for its deck: stiffness factors leave every mass alone.
 
+use crate::contents::s2_parameters_mass::DENSITY;
 use crate::prelude::*;
-use crate::spec::s2_parameters_mass::DENSITY;
 
 /// Structural DOF of the box, all of them dynamic here.
 const DOF: usize = 36;

@@ -1,8 +1,8 @@
 //! Laws of a job that no list says: limits of frequencies and shapes by modes made for them, and what is drawn, or compared with another job.
 
 use crate::common::jobs::{files_in, loaded, tested, unbroken};
+use crate::extensions::preflight::{NONE, numbered};
 use crate::prelude::*;
-use crate::spec::sx_preflight::{NONE, numbered};
 use corfem::job::concern::Grade;
 
 /// Sentences of concerns whose identifiers begin so.

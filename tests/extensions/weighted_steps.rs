@@ -1,7 +1,7 @@
 //! Where weighted correlations begin, and what their Jacobian holds of modes that are all but one.
 
+use crate::extensions::weighted::compare;
 use crate::prelude::*;
-use crate::spec::sx_weighted::compare;
 use corfem::weighted::starts::{Minimum, StartEnd};
 
 #[test]

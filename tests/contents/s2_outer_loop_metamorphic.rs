@@ -4,7 +4,7 @@
 //! differently must take as many iterations in every pass and end at the same factors and the same error sum.
 //!
 //! The error sum is a root over all modes and all DOF, so that the steps of two structures that nothing couples depend on each
-//! other: that each then comes out as alone is a law of weighted correlations (`sx_weighted_metamorphic.rs`).
+//! other: that each then comes out as alone is a law of weighted correlations (`weighted_metamorphic.rs`).
 
 use crate::prelude::*;
 

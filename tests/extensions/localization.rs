@@ -1,7 +1,7 @@
 //! Rankings of suspects: by the first iteration's own factors, and by what one parameter alone explains.
 
+use crate::extensions::weighted::at;
 use crate::prelude::*;
-use crate::spec::sx_weighted::at;
 
 #[test]
 fn the_first_ranking_is_by_what_the_first_iteration_asks_for() {

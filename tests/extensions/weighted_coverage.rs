@@ -1,8 +1,8 @@
 //! How often 95 % intervals hold the truth, and that a culprit is found.
 
 use crate::evidence::coverage::{ENOUGH, SEEDS, all_coverages, tables};
+use crate::extensions::weighted::at;
 use crate::prelude::*;
-use crate::spec::sx_weighted::at;
 
 /// Seeds of the tests that every run makes.
 const FEW: RangeInclusive<u64> = 1..=4;

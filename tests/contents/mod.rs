@@ -1,12 +1,11 @@
 //! The specification: the paper's contents as tests, in its order.
 //!
 //! `s1` the equations of the main text by their numbers; `s2` the loops; `s3` the torque box; `s4` Cases 1 to 4 and Tables 1 to 13; `sA`,
-//! `sB`, `sC` the appendices, with the elements before Appendix A; `sx` what is not the paper: any size, weighted steps, pre-flight, and that
-//! the text, the machine and the plain program are one. `cargo test -- --list 'spec::'` prints them.
+//! `sB`, `sC` the appendices, with the elements before Appendix A. `cargo test -- --list 'contents::'` prints them.
 
 #![allow(
     non_snake_case,
-    reason = "appendices keep their letters, and sort after the sections by them, before the rest"
+    reason = "appendices keep their letters, and sort after the sections by them"
 )]
 
 pub mod sA_eq_00_closed_forms;
@@ -17,11 +16,7 @@ pub mod sA_eq_00_elements_membrane;
 pub mod sA_eq_00_elements_nastran95;
 pub mod sA_eq_00_elements_quadrature;
 pub mod sA_eq_00_elements_shear;
-pub mod sx_linear_algebra;
-pub mod sx_plain_program;
 pub mod sA_eq_00_structure;
-pub mod sx_two_programs;
-pub mod sx_any_size;
 pub mod s1_eq_01_flexibility;
 pub mod s1_eq_03_modes;
 pub mod s1_eq_03_supports;
@@ -61,20 +56,6 @@ pub mod s4_readings;
 pub mod s4_sentences;
 pub mod s4_snapshots;
 pub mod s4_tables_published;
-pub mod sx_assignment;
-pub mod sx_intervals;
-pub mod sx_localization;
-pub mod sx_misfit;
-mod sx_next_measurement;
-pub mod sx_preflight;
-pub mod sx_second_order;
-pub mod sx_weighted;
-pub mod sx_weighted_components;
-pub mod sx_weighted_coverage;
-pub mod sx_weighted_laws;
-pub mod sx_weighted_masses;
-pub mod sx_weighted_metamorphic;
-pub mod sx_weighted_steps;
 pub mod sA_eq_01_to_04_assembly;
 pub mod sA_eq_05_to_08_condensation;
 pub mod sA_eq_09_shares;

@@ -1,7 +1,7 @@
 //! Laws of weighted steps by numbers that are worked out by hand, and both sides of every limit.
 
+use crate::extensions::weighted::at;
 use crate::prelude::*;
-use crate::spec::sx_weighted::at;
 
 #[track_caller]
 fn assert_close(found: f64, expected: f64, tolerance: f64) {

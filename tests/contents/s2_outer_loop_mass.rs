@@ -1,7 +1,7 @@
 //! Correlation by mass, and by stiffness and mass together.
 
+use crate::contents::s2_parameters_mass::{analyze, both, boxed, modes, point_masses};
 use crate::prelude::*;
-use crate::spec::s2_parameters_mass::{analyze, both, boxed, modes, point_masses};
 
 #[test]
 fn wrong_point_masses_are_found() {
