@@ -280,7 +280,7 @@ fn copy(forms: &[Form], folder: &Path) {
     ]);
     // Failures that properties of an earlier run have kept are those of its wrong forms, and a file that is gone would be a second one of
     // its module.
-    let parts = ["src", "tests"].map(|part| folder.join(part));
+    let parts = ["src", "tests", "paper"].map(|part| folder.join(part));
     for part in parts.iter().filter(|part| part.is_dir()) {
         for path in files_below(part) {
             let name = path.strip_prefix(folder).unwrap().to_string_lossy();
