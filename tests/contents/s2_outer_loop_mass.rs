@@ -3,6 +3,16 @@
 use crate::contents::s2_parameters_mass::{analyze, both, boxed, modes, point_masses};
 use crate::prelude::*;
 
+/// The correlation of a model by the paper's loops, whole.
+fn correlated(
+    model: &(WholeModel, SparseMatrix),
+    test: &Modes,
+    settings: &Settings,
+) -> Correlation {
+    let analyze = |factors: &[f64]| analyze(model, factors, test);
+    correlate(analyze, &model.0.ranges(), settings, |_, _| true).unwrap()
+}
+
 #[test]
 fn wrong_point_masses_are_found() {
     let (truth, _) = boxed(&point_masses(), 1e-12, [1.0; 9]);
@@ -15,13 +25,7 @@ fn wrong_point_masses_are_found() {
     settings.inner.tolerance = 0.002;
     settings.later_inner_tolerance = 0.002;
     let test = modes(&truth);
-    let result = correlate(
-        |f| analyze(&model, f, &test),
-        &model.0.ranges(),
-        &settings,
-        |_, _| true,
-    )
-    .unwrap();
+    let result = correlated(&model, &test, &settings);
     assert!(result.converged);
     let last = result.passes.last().unwrap();
     for (dof, (factor, wrong)) in last.factors.iter().zip(wrong).enumerate() {
@@ -34,19 +38,8 @@ fn wrong_point_masses_are_found() {
 #[test]
 fn stiffness_and_mass_change_together() {
     let (model, test) = both();
-    let settings = Settings::default();
-    let result = correlate(
-        |f| analyze(&model, f, &test),
-        &model.0.ranges(),
-        &settings,
-        |_, _| true,
-    )
-    .unwrap();
-    assert!(
-        result.converged,
-        "{:?}",
-        result.passes.last().unwrap().check.errors
-    );
+    let result = correlated(&model, &test, &Settings::default());
+    assert!(result.converged);
     // Stiffness and mass scaled alike leave every mode alone, so the factors themselves need not be the true ones.
     let last = result.passes.last().unwrap();
     assert!(last.factors[..15].iter().any(|f| (f - 1.0).abs() > 0.01));

@@ -213,18 +213,17 @@ fn difference([first, other]: [&Correlation; 2], place: impl Fn(usize, usize) ->
     sums.chain(factors).fold(0.0, worse)
 }
 
+/// Asks of a correlation that putting it in another way changes nothing.
+fn stays(first: &Given, put: impl Fn(&mut Given), place: impl Fn(usize, usize) -> usize) {
+    let mut other = first.clone();
+    put(&mut other);
+    assert_same(&first.name, &first.correlated(), &other.correlated(), place);
+}
+
 /// Asks of every case that putting it in another way changes nothing.
 fn nothing_changes(put: impl Fn(&mut Given), place: impl Fn(usize, usize) -> usize) {
     for number in CASES {
-        let first = given(number);
-        let mut other = first.clone();
-        put(&mut other);
-        assert_same(
-            &first.name,
-            &first.correlated(),
-            &other.correlated(),
-            &place,
-        );
+        stays(&given(number), &put, &place);
     }
 }
 
@@ -241,16 +240,7 @@ fn of_frames(ask: impl Fn(&Given)) {
 /// Asks of every case and of random frames that putting it in another way changes nothing.
 fn nothing_changes_anywhere(put: impl Fn(&mut Given), place: impl Fn(usize, usize) -> usize) {
     nothing_changes(&put, &place);
-    of_frames(|first| {
-        let mut other = first.clone();
-        put(&mut other);
-        assert_same(
-            &first.name,
-            &first.correlated(),
-            &other.correlated(),
-            &place,
-        );
-    });
+    of_frames(|first| stays(first, &put, &place));
 }
 
 fn in_place(e: usize, _: usize) -> usize {
