@@ -1,4 +1,4 @@
-"""Exact analyses that SciPy's least_squares takes with exact derivatives on the net of tests/extensions/any_size/residual_vectors.rs.
+"""Exact analyses that SciPy's least_squares takes with exact derivatives on the net of tests/extensions/any_size/deflections.rs.
 
     python3 golden/residual_vectors.py
 

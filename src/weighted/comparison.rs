@@ -2,16 +2,15 @@
 //! the errors of components.
 
 use super::close_modes::{members, turned};
-#[cfg(feature = "program")]
-use crate::method::analysis::Analysis;
 use crate::method::analysis::State;
-use crate::method::derivatives::DERIVATIVE_STEP;
 use crate::method::error::{Error, check_count, positive, require};
 use crate::method::error_sum::{Errors, ModeError, mode_errors};
 use crate::method::linear_algebra::check_shape;
 use crate::method::model::ModalModel;
 use crate::method::modes::Modes;
 use crate::method::sorting::Pairing;
+#[cfg(feature = "program")]
+use crate::method::{analysis::Analysis, derivatives::DERIVATIVE_STEP};
 use crate::sparse::{Basis, Candidates, ModeWeight, SensorModel, cosines, is_held, is_one_root};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
